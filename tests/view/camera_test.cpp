@@ -168,6 +168,20 @@ TEST(ViewSlice, TheOutlineOfAnEllipsoidIsAnEllipse) {
     EXPECT_TRUE(outline(mesh->view(), translation({5, 25, 90}), 2, 40, place).empty());
 }
 
+TEST(ViewSlice, SmallVoxelsHaveMoreDecimals) {
+    Grid grid;
+    const auto text = [&grid](double voxel, double mm) {
+        grid.spacing = {1, voxel, 1};
+        return mmText(grid, 1, mm);
+    };
+    EXPECT_EQ(text(1, 12.34), "12.3");
+    EXPECT_EQ(text(0.1, 12.34), "12.3");
+    EXPECT_EQ(text(0.05, 12.34), "12.34");
+    EXPECT_EQ(text(0.001, -0.0052), "-0.005");
+    EXPECT_EQ(text(1, -0.04), "0.0") << "zero has no sign";
+    EXPECT_EQ(decimalsOn(grid, 2), 2);
+}
+
 TEST(ViewPace, OnlyWhatWasDrawnIsSampled) {
     const Extent texture{900, 400};
     for (const Extent& picture : {Extent{1, 1}, Extent{75, 33}, Extent{451, 199}, texture}) {

@@ -170,17 +170,18 @@ void drawContacts(State& state) {
             ImGui::TableNextRow();
             ImGui::TableNextColumn();
             ImGui::PushID(row);
-            char text[32];
-            std::snprintf(text, sizeof text, "%.2f", contact.depth);
-            if (ImGui::Selectable(text, false, ImGuiSelectableFlags_SpanAllColumns)) {
+            const Grid& grid = state.volume.grid;
+            if (ImGui::Selectable(mmText(grid, 2, contact.depth).c_str(), false, ImGuiSelectableFlags_SpanAllColumns)) {
                 state.cursor = contact.position;
                 state.camera.target = contact.position;
             }
             ImGui::PopID();
-            for (const double number : {contact.position[0], contact.position[1], contact.position[2], contact.value}) {
+            for (const double place : contact.position) {
                 ImGui::TableNextColumn();
-                ImGui::Text("%.1f", number);
+                ImGui::TextUnformatted(mmText(grid, 1, place).c_str());
             }
+            ImGui::TableNextColumn();
+            ImGui::Text("%.1f", contact.value);
         }
     }
     ImGui::EndTable();

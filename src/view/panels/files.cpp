@@ -87,9 +87,7 @@ void drawPathDialog(PathDialog& dialog, State& state) {
         return;
     }
     if (dialog.title == kOpen) {
-        ImGui::PushStyleColor(ImGuiCol_Text, quietColour());
-        ImGui::TextWrapped("a volume, a mesh, poses (.txt), a transfer function or a session (.json)");
-        ImGui::PopStyleColor();
+        ImGui::TextColored(quietColour(), "a volume, a mesh, poses (.txt),\na transfer function or a session (.json)");
     }
     ImGui::SetNextItemWidth(-1);
     if (ImGui::IsWindowAppearing()) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace voxtact::view {
 
@@ -22,7 +23,10 @@ void drawPlace(State& state) {
     const Vec3 tip = originOf(state.document.edit.pose());
     std::array<float, 3> numbers{static_cast<float>(tip[0]), static_cast<float>(tip[1]), static_cast<float>(tip[2])};
     ImGui::SetNextItemWidth(-ImGui::CalcTextSize("tip, mm_").x);
-    if (ImGui::DragFloat3("tip, mm", numbers.data(), 0.1F, 0, 0, "%.2f")) {
+    const int decimals = decimalsOn(state.volume.grid, 2);
+    const std::string format = "%." + std::to_string(decimals) + "f";
+    const auto speed = static_cast<float>(std::pow(10, 1 - decimals));
+    if (ImGui::DragFloat3("tip, mm", numbers.data(), speed, 0, 0, format.c_str())) {
         Vec3 to = tip;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             // What was not changed keeps the digits that a float has not.

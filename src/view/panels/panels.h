@@ -77,6 +77,8 @@ void drawHelp(State& state);
 
 /// A title with a line.
 void heading(const char* text);
+/// A line of text over a picture, with a dark rim: it can be read on what is bright, too.
+void addRimmed(ImDrawList& list, const ImVec2& at, ImU32 colour, const char* text);
 /// As much of a line as a width has room for, with dots for what is missing.
 [[nodiscard]] std::string shortened(const std::string& text, float width);
 /// Clipboard and status line.

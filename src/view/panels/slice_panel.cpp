@@ -81,10 +81,10 @@ void drawClosest(const State& state, std::size_t slice, const SlicePlace& place,
 }
 
 void drawLetters(const SliceKind& kind, const Rect& rect, ImDrawList& list) {
-    const ImU32 colour = IM_COL32(225, 229, 235, 200);
+    const ImU32 colour = IM_COL32(225, 229, 235, 255);
     const float size = ImGui::GetFontSize();
     const auto text = [&](float x, float y, const char* letter) {
-        list.AddText({rect.corner.x + x, rect.corner.y + y}, colour, letter);
+        addRimmed(list, {rect.corner.x + x, rect.corner.y + y}, colour, letter);
     };
     text(scaled(4), rect.size.y / 2 - size / 2, kind.left);
     text(rect.size.x - size * 0.8F, rect.size.y / 2 - size / 2, kind.right);
@@ -129,9 +129,9 @@ void drawSlice(State& state, std::size_t slice) {
     }
     drawClosest(state, slice, place, rect, list);
     drawLetters(kind, rect, list);
-    char text[64];
-    std::snprintf(text, sizeof text, "%s %.1f mm", kind.name, state.cursor[kind.axis]);
-    list.AddText({corner.x + scaled(6), corner.y + scaled(3)}, IM_COL32(180, 188, 198, 255), text);
+    const std::string text =
+        std::string(kind.name) + ' ' + mmText(state.volume.grid, 1, state.cursor[kind.axis]) + " mm";
+    addRimmed(list, {corner.x + scaled(6), corner.y + scaled(3)}, IM_COL32(180, 188, 198, 255), text.c_str());
     list.PopClipRect();
 }
 

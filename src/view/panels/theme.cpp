@@ -128,6 +128,14 @@ void heading(const char* text) {
     ImGui::PopStyleColor();
 }
 
+void addRimmed(ImDrawList& list, const ImVec2& at, ImU32 colour, const char* text) {
+    const float by = scaled(1);
+    for (const ImVec2& side : {ImVec2{-by, 0}, ImVec2{by, 0}, ImVec2{0, -by}, ImVec2{0, by}, ImVec2{by, by}}) {
+        list.AddText({at.x + side.x, at.y + side.y}, IM_COL32(0, 0, 0, 190), text);
+    }
+    list.AddText(at, colour, text);
+}
+
 std::string shortened(const std::string& text, float width) {
     if (ImGui::CalcTextSize(text.c_str()).x <= width) {
         return text;

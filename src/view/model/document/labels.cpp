@@ -2,6 +2,7 @@
 #include "view/model/document/labels.h"
 
 #include "view/model/shown/histogram.h"
+#include "view/model/shown/slice.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -36,13 +37,13 @@ std::vector<LabelCount> touchedLabels(std::vector<LabelCount> counts) {
 std::string placeText(const VolumeView& volume, const Mat4& texture_from_world, const Labels* labels,
                       const Vec3& world) {
     const std::optional<double> value = valueAt(volume, texture_from_world, world);
-    char text[128];
+    char number[32] = "outside of the volume";
     if (value) {
-        std::snprintf(text, sizeof text, "%.1f, %.1f, %.1f mm: %g", world[0], world[1], world[2], *value);
-    } else {
-        std::snprintf(text, sizeof text, "%.1f, %.1f, %.1f mm: outside of the volume", world[0], world[1], world[2]);
+        std::snprintf(number, sizeof number, "%g", *value);
     }
-    return labels == nullptr ? text : std::string(text) + "   label " + labelText(*labels, labelOf(*labels, world));
+    const auto place = [&](std::size_t axis) { return mmText(volume.grid, 1, world[axis]); };
+    const std::string text = place(0) + ", " + place(1) + ", " + place(2) + " mm: " + number;
+    return labels == nullptr ? text : text + "   label " + labelText(*labels, labelOf(*labels, world));
 }
 
 } // namespace voxtact::view

@@ -2,6 +2,8 @@
 #include "view/model/shown/slice.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 
 namespace voxtact::view {
 
@@ -55,6 +57,21 @@ std::vector<OutlinePiece> outline(const MeshView& mesh, const Mat4& world_from_o
         }
     }
     return pieces;
+}
+
+int decimalsOn(const Grid& grid, int decimals) {
+    constexpr int kMostMore = 6;
+    const double voxel = *std::ranges::min_element(grid.spacing);
+    // Tenths tell voxels of a tenth apart.
+    return decimals + std::clamp(-1 - static_cast<int>(std::floor(std::log10(voxel))), 0, kMostMore);
+}
+
+std::string mmText(const Grid& grid, int decimals, double mm) {
+    const int number = decimalsOn(grid, decimals);
+    const double parts = std::pow(10, number);
+    char text[64];
+    std::snprintf(text, sizeof text, "%.*f", number, std::abs(mm * parts) < 0.5 ? 0.0 : mm);
+    return text;
 }
 
 } // namespace voxtact::view

@@ -4,6 +4,7 @@
 #include "view/model/shown/camera.h"
 
 #include <array>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -39,6 +40,11 @@ using Point2 = std::array<double, 2>;
 /// The point of the world at a point of the picture, and the other way round.
 [[nodiscard]] Vec3 worldAt(const SlicePlace& place, const Point2& at);
 [[nodiscard]] Point2 pictureAt(const SlicePlace& place, const Vec3& world);
+
+/// So many decimals of a millimetre; more where voxels are so small that these would not tell them apart.
+[[nodiscard]] int decimalsOn(const Grid& grid, int decimals);
+/// A length or a place with that many; zero has no sign.
+[[nodiscard]] std::string mmText(const Grid& grid, int decimals, double mm);
 
 /// A piece of a mesh's outline in a slice.
 struct OutlinePiece {
