@@ -6,6 +6,7 @@
   pointer.py PROGRAM cancel   pictures that take long are cancelled, by a key and by leaving
   pointer.py PROGRAM turning  how long frames take while a head is turned; with a number behind it, for so many seconds
   pointer.py PROGRAM click    a click turns nothing by the way to it, and a double click is one
+  pointer.py PROGRAM edges    a coarse picture is one to its edges, whatever was there before
   pointer.py PROGRAM chart    the curve's chart is zoomed, and a point is dragged there
 
 Exit status: 0 passed, 1 failed.
@@ -125,6 +126,34 @@ def click(program, folder):
         window.end()
 
 
+def edges(program, folder):
+    with Server() as server, Window(program, server, folder, ["--device", "cpu"]) as window:
+        before = window.until("the first answer", lambda s: s["settled"])["picture"]
+        window.press("Next")
+        window.tool("windowsize", window.id, "1000", "740")
+        state = window.until("a picture of that size", lambda s: s["picture"][2] > before[2] and s["settled"])
+        x, y, width, height = (round(length) for length in state["picture"])
+        right, low = x + width - 1, y + height - 1
+        # Bright to the edges first.
+        window.tool("mousemove", str(x + width // 2), str(y + height * 2 // 3))
+        window.tool("click", "--repeat", "12", "--delay", "60", "4")
+        window.until("a picture of the head from near", lambda s: s["settled"])
+        window.press("f")
+        window.tool("mousemove", str(x + 40), str(low - 60), "mousedown", "1")
+        for step in range(12):
+            window.tool("mousemove_relative", "--", "6", "-3")
+            time.sleep(0.08)
+            pixel = server.pixels()
+            # The background changes little from there on; the bar of millimetres and the cube lie elsewhere.
+            pairs = [(pixel(right, row), pixel(right - 22, row)) for row in range(y + height // 4, low - 45)]
+            pairs += [(pixel(column, low), pixel(column, low - 22)) for column in range(x + 2, x + width // 5)]
+            worst = max(abs(a - b) for one, other in pairs for a, b in zip(one, other))
+            assert worst <= 10, (step, worst)
+        window.tool("mouseup", "1")
+        window.press("ctrl+q")
+        window.end()
+
+
 def save_picture(window, folder, name, width):
     """Asks for a picture that is so large that it takes long; the state when it is being made."""
     for _ in range(3):  # a key that comes and goes within a frame is lost: then a size is taken for the name
@@ -209,5 +238,5 @@ def turning(program, folder, seconds=3):
 
 
 if __name__ == "__main__":
-    CHECKS = {"cube": cube, "chart": chart, "click": click, "cancel": cancel, "turning": turning}
+    CHECKS = {"cube": cube, "chart": chart, "click": click, "edges": edges, "cancel": cancel, "turning": turning}
     sys.exit(main(sys.argv[1:], CHECKS, __doc__, "turning"))

@@ -11,6 +11,7 @@ import os
 import pathlib
 import re
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -31,7 +32,9 @@ class Server:
         for program in ("Xvfb", "xdotool"):
             if shutil.which(program) is None:
                 fail(f"{program} is not installed")
-        self.process = subprocess.Popen(["Xvfb", "-displayfd", "1", "-screen", "0", "1024x768x24", "-nolisten", "tcp"],
+        self.frames = tempfile.TemporaryDirectory()
+        self.process = subprocess.Popen(["Xvfb", "-displayfd", "1", "-screen", "0", "1024x768x24", "-nolisten", "tcp",
+                                         "-fbdir", self.frames.name],
                                         stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
         number = self.process.stdout.readline().strip()
         # What the window keeps from run to run is not that of whoever runs the tests.
@@ -45,6 +48,18 @@ class Server:
         self.process.terminate()
         self.process.wait()
         self.kept.cleanup()
+        self.frames.cleanup()
+
+    def pixels(self):
+        """What is on the screen now: the three channels of a pixel, by its place."""
+        data = (pathlib.Path(self.frames.name) / "Xvfb_screen0").read_bytes()  # a dump of xwd
+        header = struct.unpack(">25I", data[:100])
+        begin, line, colours = header[0], header[12], header[19]
+
+        def pixel(x, y):
+            at = begin + 12 * colours + y * line + 4 * x
+            return data[at:at + 3]
+        return pixel
 
 
 class Window:
