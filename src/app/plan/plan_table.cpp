@@ -2,6 +2,7 @@
 #include "app/detect/extra_outputs.h"
 #include "app/plan/plan_run.h"
 #include "app/version.h"
+#include "core/base/outward.h"
 
 #include <algorithm>
 #include <array>
@@ -40,9 +41,9 @@ io::Cell millimetres(double value) {
 }
 
 /// Bounds are rounded away from each other.
-double roundedTo(double value, double (*round)(double)) {
+double roundedTo(double value, double (*round)(double value, double parts)) {
     constexpr double kParts = 1e6;
-    return std::isfinite(value) ? round(value * kParts) / kParts : value;
+    return std::isfinite(value) ? round(value, kParts) : value;
 }
 
 io::Cell safetyCell(Safety safety) {
@@ -77,9 +78,9 @@ io::Cell cellOf(const PlanInputs& inputs, const PlanTarget& target, const Planne
     case 4:
         return safetyCell(path.safety);
     case 5:
-        return roundedTo(path.clearance.lo, std::floor);
+        return roundedTo(path.clearance.lo, lowerRounded);
     case 6:
-        return roundedTo(path.clearance.hi, std::ceil);
+        return roundedTo(path.clearance.hi, upperRounded);
     case 7:
         return path.nearest ? io::Cell(nearestText(inputs, *path.nearest)) : io::Cell();
     case 8:
@@ -104,7 +105,7 @@ io::Cell countCell(const PlanAnswer& answer, Safety safety) {
 /// mm2 to a hundredth, rounded down: an area that is certain.
 io::Cell areaCell(double area) {
     constexpr double kParts = 100;
-    return std::floor(area * kParts) / kParts;
+    return lowerRounded(area, kParts);
 }
 
 io::Cell bestCell(const TargetPlan& plan, std::size_t which) {
@@ -114,7 +115,7 @@ io::Cell bestCell(const TargetPlan& plan, std::size_t which) {
     }
     const PlannedPath& path = *best.front().path;
     return which == 0   ? io::Cell(std::uint64_t{path.entry})
-           : which == 1 ? io::Cell(roundedTo(path.clearance.lo, std::floor))
+           : which == 1 ? io::Cell(roundedTo(path.clearance.lo, lowerRounded))
                         : millimetres(path.length);
 }
 
