@@ -307,10 +307,10 @@ TEST_F(ChunksTest, DamagedChunksAreDoneAgain) {
     EXPECT_THAT(refused(1, {"merge", path("run")}), HasSubstr("1 of 12 chunks are damaged"));
     fs::remove(files[3]);
     fs::remove(files[8]);
-    EXPECT_THAT(
-        refused(1, {"merge", path("run")}),
-        HasSubstr("1 of 12 chunks are damaged, the first is number 5, and 2 of 12 chunks are missing, the first is "
-                  "number 3; run the same commands"));
+    EXPECT_THAT(refused(1, {"merge", path("run")}),
+                HasSubstr("1 of 12 chunks are damaged or cannot be read, the first is number 5, and 2 of 12 chunks are "
+                          "missing, the first is "
+                          "number 3; run the same commands"));
 }
 
 TEST_F(ChunksTest, MergeSaysWhatIsMissing) {

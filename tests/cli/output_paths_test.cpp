@@ -130,8 +130,9 @@ TEST_F(OutputPathsTest, WhatCannotBeLookedAt) {
     EXPECT_THAT(refused(1, detect({"--output", loop})), AllOf(HasSubstr("loop.csv"), HasSubstr("symbolic links")));
     writeText(path("m.gltf"), R"({"buffers": [{"uri": "loop.csv", "byteLength": 4}]})");
     writeText(path("old.csv"), "as it was");
-    EXPECT_THAT(refused(1, {"detect", "--volume", path("v.nii"), "--mesh", path("m.gltf"), "--output", path("old.csv")}),
-                AllOf(HasSubstr("cannot look at"), HasSubstr("loop.csv"), HasSubstr("symbolic links")));
+    EXPECT_THAT(
+        refused(1, {"detect", "--volume", path("v.nii"), "--mesh", path("m.gltf"), "--output", path("old.csv")}),
+        AllOf(HasSubstr("cannot look at"), HasSubstr("loop.csv"), HasSubstr("symbolic links")));
     EXPECT_EQ(readText(path("old.csv")), "as it was");
 }
 

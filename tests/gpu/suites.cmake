@@ -16,10 +16,12 @@ endforeach()
 set(entries "")
 function(add_entry) # SUITE...
   list(JOIN ARGN "+" name)
+  # Those of many suites take longest, and begin first.
+  list(LENGTH ARGN cost)
   list(TRANSFORM ARGN APPEND ".*" OUTPUT_VARIABLE filter)
   list(JOIN filter ":" filter)
   string(APPEND entries "add_test([=[${PREFIX}${name}]=] [=[${PROGRAM}]=] [=[--gtest_filter=${filter}]=] ${ARGUMENTS})\n"
-         "set_tests_properties([=[${PREFIX}${name}]=] PROPERTIES LABELS ${LABEL} TIMEOUT ${TIMEOUT} SKIP_RETURN_CODE 77)\n")
+         "set_tests_properties([=[${PREFIX}${name}]=] PROPERTIES LABELS ${LABEL} TIMEOUT ${TIMEOUT} SKIP_RETURN_CODE 77 COST ${cost}0)\n")
   set(entries "${entries}" PARENT_SCOPE)
 endfunction()
 foreach(together IN LISTS TOGETHER)
