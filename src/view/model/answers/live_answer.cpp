@@ -80,7 +80,7 @@ std::string countText(const PairAnswer& answer) {
 }
 
 std::string trianglesText(const MeshAnswer& answer) {
-    const std::string triangles = counted(answer.triangles.size(), "triangle");
+    std::string triangles = counted(answer.triangles.size(), "triangle");
     if (answer.contacts.empty()) {
         return triangles;
     }
