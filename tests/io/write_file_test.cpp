@@ -6,6 +6,7 @@
 #include <fstream>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace voxtact::test {
@@ -112,10 +113,10 @@ class SeveralFiles : public testing::Test {
             files_.back().stream() << "new " << name;
         }
     }
-    Result<void> commitAll() {
+    Result<void> commitAll(bool backwards = false) {
         std::vector<io::OutputFile*> all;
         for (io::OutputFile& file : files_) {
-            all.push_back(&file);
+            all.insert(backwards ? all.begin() : all.end(), &file);
         }
         Result<void> done = io::OutputFile::commitAll(all);
         files_.clear();
@@ -167,12 +168,13 @@ TEST_F(SeveralFiles, OrNoneWhereThereAreNoLinks) {
 
 TEST_F(SeveralFiles, OrNone) {
     // Whichever cannot be put in its place: a folder is there by now.
-    for (const char* const blocked : {"a", "b", "c"}) {
+    for (const auto& [blocked, backwards] :
+         {std::pair("a", false), {"b", false}, {"c", false}, {"a", true}, {"b", true}, {"c", true}}) {
         make();
         const fs::path place = folder_ / blocked;
         fs::remove(place);
         fs::create_directory(place);
-        expectRefused(commitAll(), std::generic_category().message(EISDIR), place);
+        expectRefused(commitAll(backwards), std::generic_category().message(EISDIR), place);
         fs::remove(place);
         for (const char* const name : {"a", "b"}) {
             if (std::string(name) != blocked) {
