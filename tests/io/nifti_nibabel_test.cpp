@@ -243,10 +243,13 @@ double shearOf(const std::array<double, 12>& affine) {
 
 void expectNibabel(const VolumeData& volume, const NibabelImage& nibabel, double unit) {
     const Mat4 world_from_index = worldFromIndex(volume.grid);
-    for (std::size_t row = 0; row < 3; ++row) {
-        for (std::size_t column = 0; column < 4; ++column) {
-            const double said = nibabel.affine[4 * row + column] * unit * (row < 2 ? -1 : 1);
-            ASSERT_NEAR(world_from_index[4 * column + row], said, 1e-7 * unit * std::max(1.0, std::abs(said) / unit));
+    for (std::size_t column = 0; column < 4; ++column) {
+        const auto& affine = nibabel.affine;
+        // What a header holds is of single precision: so is a column of it as a whole, whatever its elements are.
+        const double length = std::hypot(affine[column], affine[4 + column], affine[8 + column]);
+        for (std::size_t row = 0; row < 3; ++row) {
+            const double said = affine[4 * row + column] * unit * (row < 2 ? -1 : 1);
+            ASSERT_NEAR(world_from_index[4 * column + row], said, 1e-7 * unit * std::max(1.0, length));
         }
     }
     ASSERT_EQ(voxelCount(volume.grid), nibabel.voxels);
