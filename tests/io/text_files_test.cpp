@@ -3,6 +3,7 @@
 
 #include <cerrno>
 #include <clocale>
+#include <fstream>
 #include <functional>
 #include <istream>
 #include <limits>
@@ -135,8 +136,8 @@ TEST(Poses, NoMemoryIsNotTheEnd) {
 
 TEST(TextFiles, OneThatOpensAndCannotBeRead) {
     const std::filesystem::path file = "/proc/self/mem"; // nothing is at address 0
-    if (!std::filesystem::exists(file)) {
-        GTEST_SKIP() << "no " << file;
+    if (!std::ifstream(file).is_open()) {
+        GTEST_SKIP() << file << " cannot be opened";
     }
     const std::string why = std::generic_category().message(EIO);
     expectRefused(io::readPoses(file), why, file);
