@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # What takes too long for every change: the tests under the address and undefined-behaviour sanitizers and under the
-# thread sanitizer, every fuzz target for a minute, every mutant, all random cases of the tests, the tests of agreement on
-# other software drivers, a copy of the sources with one more counting method, the program with shared libraries of ours, and
-# ten minutes of random input to the window. All of it runs, and the status is 1 if any part failed.
+# thread sanitizer, every fuzz target for a minute, every mutant, all random cases of the tests, the tests of
+# agreement on other software drivers, a copy of the sources with one more counting method, the program with shared
+# libraries of ours, and ten minutes of random input to the window. All of it runs, and the status is 1 if any part
+# failed.
 # Under the thread sanitizer the tiers of the host alone: lavapipe's own threads are not built with it.
 set -uo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.." || exit 1

@@ -39,19 +39,7 @@ class FilesMemory : public testing::Test {
 /// Reading `Handle`, of which `countOf` tells how many there are.
 template <class Handle>
 void expectWhole(const char* what, void (*destroy)(Handle*), auto read, auto countOf, std::size_t count) {
-    Handle* handle = nullptr;
-    const auto end = [&] {
-        destroy(handle);
-        handle = nullptr;
-    };
-    expectTight(
-        what,
-        [&] {
-            end();
-            return read(&handle);
-        },
-        [&] { EXPECT_EQ(countOf(handle), count); });
-    end();
+    expectTightCreation<Handle>(what, destroy, read, [&](const Handle& handle) { EXPECT_EQ(countOf(&handle), count); });
 }
 
 TEST_F(FilesMemory, OfPoses) {

@@ -47,8 +47,11 @@ inline void expectTight(const char* what, const Call& call, const std::function<
     EXPECT_GT(all, 0U);
 }
 
-/// For a call that makes an object.
-template <class Handle> void expectTightCreation(const char* what, void (*destroy)(Handle*), auto create) {
+/// For a call that makes an object. `expectAnswer` looks at one.
+template <class Handle>
+void expectTightCreation(
+    const char* what, void (*destroy)(Handle*), auto create,
+    const std::function<void(const Handle&)>& expectAnswer = [](const Handle&) {}) {
     Handle* handle = nullptr;
     const auto end = [&] {
         destroy(handle);
@@ -62,7 +65,10 @@ template <class Handle> void expectTightCreation(const char* what, void (*destro
             EXPECT_EQ(handle != nullptr, result == VXT_OK);
             return result;
         },
-        [&] { EXPECT_NE(handle, nullptr); });
+        [&] {
+            ASSERT_NE(handle, nullptr);
+            expectAnswer(*handle);
+        });
     end();
 }
 

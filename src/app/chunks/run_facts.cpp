@@ -2,7 +2,7 @@
 #include "app/chunks/run_facts.h"
 
 #include "app/chunks/content_hash.h"
-#include "app/options/file_identity.h"
+#include "app/options/file_status.h"
 #include "app/output/text_for_messages.h"
 #include "core/base/try.h"
 

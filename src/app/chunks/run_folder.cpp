@@ -2,7 +2,7 @@
 #include "app/chunks/run_folder.h"
 
 #include "app/chunks/content_hash.h"
-#include "app/options/file_identity.h"
+#include "app/options/file_status.h"
 #include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "io/text/small_file.h"

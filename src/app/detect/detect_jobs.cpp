@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/detect/detect_jobs.h"
 
-#include "app/options/file_identity.h"
+#include "app/options/file_status.h"
 #include "app/output/text_for_messages.h"
 #include "core/base/try.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/options/inputs.h"
 
-#include "app/options/file_identity.h"
+#include "app/options/file_status.h"
 #include "app/options/output_paths.h"
 #include "app/output/standard_streams.h"
 #include "app/output/text_for_messages.h"

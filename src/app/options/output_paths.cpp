@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/options/output_paths.h"
 
-#include "app/options/file_identity.h"
+#include "app/options/file_status.h"
 #include "core/base/try.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/output/output.h"
 
-#include "app/options/file_identity.h"
+#include "app/options/file_status.h"
 #include "app/output/outcome.h"
 #include "app/output/standard_streams.h"
 #include "core/base/text_stream.h"

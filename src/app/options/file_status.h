@@ -27,8 +27,8 @@ struct FileIdentity {
     return {ErrorCode::File, 0, "cannot look at '" + path.string() + "': " + why.message()};
 }
 
-/// Where nobody may look: an error; or nothing, of what may be the name of a file that somebody reads, which nobody can
-/// then.
+/// What is made of a path that this process may not look at. IsNothing is for names that are only guessed: what may not
+/// be looked at is not read either.
 enum class NoAccess { IsAnError, IsNothing };
 
 /// What is there, behind links. Nothing where nothing is; an error where that cannot be told: who took it for nothing
