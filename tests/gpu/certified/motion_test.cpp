@@ -151,7 +151,8 @@ TEST_F(MotionTest, SaysNothingAgainstTheHost) {
             witness.expect(scene.hostItem(), kDefaultThreshold, found[i], search, 20);
             ofDevice.add(found[i]);
             ofHost.add(host[i]);
-            if (found[i].touch) { // as near to each other as single precision lets them be
+            // As near to each other as single precision lets them be, where double precision brings them together.
+            if (found[i].touch && host[i].end == MotionEnd::Decided) {
                 const double way = wayOf(scene.hostMesh.facts(), scene.poses[i], scene.poses[i + 1]);
                 widest = std::max(widest, (found[i].touch->at - found[i].freeUntil) * way);
             }
