@@ -6,7 +6,8 @@ usage: tidy.py [--all-checks] BUILD_FOLDER [FILE|FOLDER...]
 
 A file that passed is looked at again only when one of the texts that it is compiled from has changed: the file, the
 headers of ours that it includes as the last build saw them, its command, the checks, or clang-tidy. What passed is kept
-in the build folder as hashes of these. Without --all-checks, the slow one of the checks is left out, and files that the
+as hashes of these in $XDG_CACHE_HOME/voxtact-tidy, else ~/.cache/voxtact-tidy, for all checkouts, until no run has met
+it for 60 days. Without --all-checks, the slow one of the checks is left out, and files that the
 build compiles alike are looked at as one, since most of the time goes into headers: where something is found, which may
 be no more than two equal names, each half by itself, down to one file. With it, each is from the start: checks of main
 files alone find more. The exit status is 1 when there was a finding.
@@ -21,12 +22,14 @@ import shlex
 import subprocess
 import sys
 import tempfile
+import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 CONFIGS = [ROOT / ".clang-tidy"]
 # As long as all others together, in other people's templates.
 SLOW_CHECKS = "-performance-unnecessary-value-param"
 TOGETHER = 16
+KEPT_DAYS = 60
 # What .clang-tidy names, and the sources that are included where they are looked at as one.
 OURS = r"(src|include|tests)/.*\.(h|cpp)$"
 
@@ -101,7 +104,8 @@ def hashes_of(build, commands, checks):
     for source, entry in commands.items():
         output = re.search(r" -o (\S+)", entry["command"])
         parts = sorted({source, *CONFIGS, *deps.get(output[1] if output else "", [])})
-        text = version + checks + entry["command"] + "".join(f"{path}{hashes.of(path)}" for path in parts)
+        text = version + checks + entry["command"].replace(f"{ROOT}/", "")
+        text += "".join(f"{path.relative_to(ROOT)}{hashes.of(path)}" for path in parts)
         yield source, hashlib.sha256(text.encode()).hexdigest()
 
 
@@ -121,6 +125,25 @@ def groups_of(commands, sources):
         parts = -(-len(members) // TOGETHER)
         for part in range(parts):
             yield members[part * len(members) // parts:(part + 1) * len(members) // parts]
+
+
+def passed_folder():
+    """Where the hashes of what passed are kept, without those that are too old."""
+    folder = pathlib.Path(os.environ.get("XDG_CACHE_HOME") or pathlib.Path.home() / ".cache") / "voxtact-tidy"
+    folder.mkdir(parents=True, exist_ok=True)
+    oldest = time.time() - KEPT_DAYS * 24 * 3600
+    for key in folder.iterdir():
+        if key.is_file() and key.stat().st_mtime < oldest:
+            key.unlink(missing_ok=True)
+    return folder
+
+
+def has(key):
+    """Whether it is kept; it is met by this."""
+    if not key.exists():
+        return False
+    key.touch()
+    return True
 
 
 def includes_itself(source):
@@ -177,10 +200,9 @@ def main():
     checks = "" if all_checks else SLOW_CHECKS
     build, *names = [argument for argument in arguments if argument != "--all-checks"]
     build = pathlib.Path(build).resolve()
-    passed = build / "tidy"
-    passed.mkdir(exist_ok=True)
+    passed = passed_folder()
     commands = commands_of(build, names or ["src"])
-    keys = {source: key for source, key in sorted(hashes_of(build, commands, checks)) if not (passed / key).exists()}
+    keys = {source: key for source, key in sorted(hashes_of(build, commands, checks)) if not has(passed / key)}
     work = [[source] for source in keys] if all_checks else list(groups_of(commands, keys))
     found = False
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
