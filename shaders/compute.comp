@@ -41,27 +41,18 @@ uint triangleAtWork;
 /// A piece is a triangle, or one triangle of the fan that clipping made of it: triangle * 8 + number in the fan.
 #define MOST_PIECES (EXACT_MAX_CORNERS - 2)
 const int kMostPixelsOfALane = 64;
-/// Texture coordinates are interpolated with errors far below this.
-const float kDomainMargin = 1e-3;
 
 shared uint queue[VOXTACT_COMPUTE_GROUP * MOST_PIECES];
 shared uint queued;
 shared uint groupLow; // survivors of the work group: together they are more than 32 bits hold
 shared uint groupHigh;
 
-bool beyond(float a, float b, float c) {
-    return (a < -kDomainMargin && b < -kDomainMargin && c < -kDomainMargin) ||
-           (a > 1.0 + kDomainMargin && b > 1.0 + kDomainMargin && c > 1.0 + kDomainMargin);
-}
-
 /// The pieces of a triangle: their number, the corners of the polygon being left in `corners`.
 int piecesOf(PairTransform transform, uint triangle, inout ExactCorner corners[EXACT_MAX_CORNERS]) {
     for (uint corner = 0; corner < 3; ++corner) {
         corners[corner] = cornerOf(constants.mesh, transform, 3 * triangle + corner);
     }
-    if (constants.rangeTest != 0 && (beyond(corners[0].tx, corners[1].tx, corners[2].tx) ||
-                       beyond(corners[0].ty, corners[1].ty, corners[2].ty) ||
-                       beyond(corners[0].tz, corners[1].tz, corners[2].tz))) {
+    if (constants.rangeTest != 0 && exactBeyond(corners[0], corners[1], corners[2])) {
         return 0;
     }
     if (kDominantAxis && !dominantProject(corners[0], corners[1], corners[2], constants.grid)) {

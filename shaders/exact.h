@@ -17,6 +17,8 @@
 #define EXACT_FARTHEST_SUBPIXEL 8388608.0f
 /// A triangle that six planes clip has at most this many corners.
 #define EXACT_MAX_CORNERS 9
+/// Texture coordinates of a triangle that is not far larger than the image are interpolated with errors below this.
+#define EXACT_BEYOND 1e-3f
 
 #include "long.h"
 
@@ -96,6 +98,17 @@ EXACT ExactCorner exactVertex(PairTransform transform, float x, float y, float z
     return corner;
 }
 
+EXACT bool exactBeyondAxis(float a, float b, float c) {
+    return (a < -EXACT_BEYOND && b < -EXACT_BEYOND && c < -EXACT_BEYOND) ||
+           (a > 1.0f + EXACT_BEYOND && b > 1.0f + EXACT_BEYOND && c > 1.0f + EXACT_BEYOND);
+}
+
+/// Whether the corners of a triangle, before any clipping, are all beyond one side of the image: where there is a range
+/// test it has no survivor, also where a corner is so far away that what is interpolated means nothing.
+EXACT bool exactBeyond(ExactCorner a, ExactCorner b, ExactCorner c) {
+    return exactBeyondAxis(a.tx, b.tx, c.tx) || exactBeyondAxis(a.ty, b.ty, c.ty) || exactBeyondAxis(a.tz, b.tz, c.tz);
+}
+
 /// Signed distance to one of the six clipping planes: near, far, left, right, top, bottom; inside when not negative.
 /// `guardX` and `guardY` are EXACT_GUARD_PIXELS in units of half the viewport.
 EXACT float exactPlane(ExactCorner corner, int plane, float guardX, float guardY) {
@@ -123,19 +136,27 @@ EXACT float exactLerp(float a, float b, float weight) {
     return sum;
 }
 
-/// Where the edge from a corner inside to one outside meets the plane. Always from inside to outside, so that two
-/// triangles that share an edge cut it at the same bits.
+/// Where the edge from a corner inside to one outside meets the plane. Always from the nearer of the two, so that what
+/// is far away does not swallow the place, and two triangles that share an edge cut it at the same bits.
 EXACT ExactCorner exactCut(ExactCorner inside, ExactCorner outside, float distanceInside, float distanceOutside) {
     PRECISE float span = distanceInside - distanceOutside;
-    PRECISE float weight = distanceInside * exactReciprocal(span);
+    float nearest = distanceInside;
+    ExactCorner from = inside;
+    ExactCorner to = outside;
+    if (-distanceOutside < distanceInside) {
+        nearest = -distanceOutside;
+        from = outside;
+        to = inside;
+    }
+    PRECISE float weight = nearest * exactReciprocal(span);
     ExactCorner corner;
-    corner.x = exactLerp(inside.x, outside.x, weight);
-    corner.y = exactLerp(inside.y, outside.y, weight);
-    corner.z = exactLerp(inside.z, outside.z, weight);
-    corner.w = exactLerp(inside.w, outside.w, weight);
-    corner.tx = exactLerp(inside.tx, outside.tx, weight);
-    corner.ty = exactLerp(inside.ty, outside.ty, weight);
-    corner.tz = exactLerp(inside.tz, outside.tz, weight);
+    corner.x = exactLerp(from.x, to.x, weight);
+    corner.y = exactLerp(from.y, to.y, weight);
+    corner.z = exactLerp(from.z, to.z, weight);
+    corner.w = exactLerp(from.w, to.w, weight);
+    corner.tx = exactLerp(from.tx, to.tx, weight);
+    corner.ty = exactLerp(from.ty, to.ty, weight);
+    corner.tz = exactLerp(from.tz, to.tz, weight);
     return corner;
 }
 

@@ -40,8 +40,9 @@ struct DetectorDesc {
     /// conservative with stopAtFirst and without outputs: what is asked is whether anything opaque is within so much of
     /// the mesh's surface; world mm, 0 to 1,000,000. 0 is the touch, by the same programs as without it. `hit` and
     /// `possible` then say what cpu::ClearanceMeter::within() says, where that and this are sure: what touches is
-    /// within every margin, but a margin of less than about a thousandth of a voxel may leave it *possible*.
-    /// InvalidArgument for what is not a number from 0 to 1,000,000, other projections, counts, and outputs.
+    /// within every margin, but a margin of less than about a thousandth of a voxel may leave it *possible*, and where
+    /// a triangle is hundreds of voxels long a larger one may, too. InvalidArgument for what is not a number from 0 to
+    /// 1,000,000, other projections, counts, and outputs.
     double margin = 0;
     /// conservative with stopAtFirst, without outputs and without a margin: what is asked is whether anything touches
     /// at some pose within it; world mm and degrees, a distance from 0 to 1,000,000. `hit` and `possible` say what

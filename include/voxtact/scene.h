@@ -34,8 +34,9 @@ struct LabelMapImpl;
 struct WrappedVolume {
     VkImageView view = VK_NULL_HANDLE;     ///< 3D, one mip level, component r sampled
     VkFormat format = VK_FORMAT_UNDEFINED; ///< R8_UNORM, R16_UNORM, R16_SNORM, R16_SFLOAT or R32_SFLOAT
-    VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL; ///< or GENERAL; while commands execute
-    Grid grid{};                                                     ///< where its voxels are
+    /// While commands execute: SHADER_READ_ONLY_OPTIMAL, READ_ONLY_OPTIMAL or GENERAL.
+    VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    Grid grid{}; ///< where its voxels are
     /// value = slope * stored + intercept, where stored is the integer behind a UNORM or SNORM texel, or the float.
     double slope = 1;
     double intercept = 0; ///< in the image's units

@@ -29,10 +29,11 @@ static inline vxt_volume_options vxt_volume_options_init(void) {
 
 /// An image of the caller's: voxtact::WrappedVolume.
 typedef struct vxt_wrapped_volume {
-    size_t struct_size;    ///< sizeof
-    VkImageView view;      ///< 3D, one mip level, component r sampled
-    VkFormat format;       ///< R8_UNORM, R16_UNORM, R16_SNORM, R16_SFLOAT or R32_SFLOAT
-    VkImageLayout layout;  ///< SHADER_READ_ONLY_OPTIMAL, the default, or GENERAL; while commands execute
+    size_t struct_size; ///< sizeof
+    VkImageView view;   ///< 3D, one mip level, component r sampled
+    VkFormat format;    ///< R8_UNORM, R16_UNORM, R16_SNORM, R16_SFLOAT or R32_SFLOAT
+    /// While commands execute: SHADER_READ_ONLY_OPTIMAL, the default, READ_ONLY_OPTIMAL or GENERAL.
+    VkImageLayout layout;
     vxt_grid grid;         ///< where its voxels are
     double slope;          ///< value = slope * stored + intercept; default 1
     double intercept;      ///< in the image's units; default 0

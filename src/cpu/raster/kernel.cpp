@@ -34,7 +34,7 @@ HWY_INLINE Sorted sortTriangles(const ViewFacts& view, const Corners& corners) {
     return {hn::AndNot(large, live), hn::And(large, live)};
 }
 
-/// Takes out the triangles with corners outside or with an unusable w.
+/// Takes out the triangles with corners outside or with an unusable w, and those beyond the image.
 HWY_INLINE Sorted sortByState(const VertexLanes& vertices, const IntV (&vertex)[3], const Sorted& sorted) {
     const Ints ints;
     const IntV zero = hn::Zero(ints);
@@ -45,10 +45,12 @@ HWY_INLINE Sorted sortByState(const VertexLanes& vertices, const IntV (&vertex)[
     const IntV outside = hn::And(any, hn::Set(ints, kOutsideBits));
     // Clipping goes plane by plane: only the first that cuts can be seen to leave nothing without clipping.
     const IntV firstPlane = hn::And(outside, hn::Neg(outside));
-    const IntM gone = hn::Ne(hn::And(hn::And(hn::And(a, b), c), firstPlane), zero);
+    const IntV all = hn::And(hn::And(a, b), c);
+    const IntM gone = hn::Ne(hn::And(all, hn::Or(firstPlane, hn::Set(ints, kBeyondBits))), zero);
     const IntM clipped = hn::Ne(outside, zero);
     const IntM clean = hn::Eq(hn::And(any, hn::Set(ints, kOutsideBits | kBadW)), zero);
-    return {hn::And(sorted.small, clean), hn::Or(hn::And(sorted.lone, clean), hn::AndNot(gone, clipped))};
+    return {hn::AndNot(gone, hn::And(sorted.small, clean)),
+            hn::AndNot(gone, hn::Or(hn::And(sorted.lone, clean), clipped))};
 }
 
 /// Rasterises the clusters of one list.
@@ -108,7 +110,7 @@ template <class Kept> class Pass {
     /// Lists the triangles for the scalar set-up, and keeps the others for a full vector.
     void transformCluster(std::uint32_t cluster, const ClusterPlace& place) {
         const std::int32_t states = transformVertices(job_, place, !certain_, used_, scratch_.vertices);
-        const bool clean = (states & (kOutsideBits | kBadW)) == 0;
+        const bool clean = (states & (kOutsideBits | kBadW | kBeyondBits)) == 0;
         for (std::uint32_t i = 0; i < place.triangleCount; i += static_cast<std::uint32_t>(hn::Lanes(Ints()))) {
             addTriangles(cluster, place.firstTriangle + i, clean);
         }

@@ -95,6 +95,9 @@ std::size_t setUpLone(const PairJob& job, const LoneTriangle& lone, ExactTriangl
     for (std::size_t i = 0; i < 3; ++i) {
         corners[i] = exactVertex(job.transform, mesh.x[vertices[i]], mesh.y[vertices[i]], mesh.z[vertices[i]]);
     }
+    if (job.view.rangeTest && exactBeyond(corners[0], corners[1], corners[2])) {
+        return 0;
+    }
     if (job.dominantAxis != nullptr && !dominantProject(corners[0], corners[1], corners[2], *job.dominantAxis)) {
         return 0;
     }

@@ -101,6 +101,9 @@ ReferenceCounts referenceCounts(const ReferencePair& pair) {
         for (std::size_t k = 0; k < 3; ++k) {
             corners[k] = cornerOf(scene, pair.mesh.indices[i + k]);
         }
+        if (pair.rangeTest && exactBeyond(corners[0], corners[1], corners[2])) {
+            continue;
+        }
         if (rowOf(pair.projection).voxelGrid &&
             !dominantProject(corners[0], corners[1], corners[2], dominantGrid(pair.volume.grid))) {
             continue;

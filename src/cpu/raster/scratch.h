@@ -28,11 +28,11 @@ struct VertexLanes {
     std::int32_t state[kScratchVertices]; ///< VertexState
 };
 
-/// The six low bits: outside of that clipping plane.
 enum VertexState : std::int32_t {
-    kOutsideBits = 0x3f,
+    kOutsideBits = 0x3f, ///< outside of that clipping plane
     kBadW = 0x40,
-    kNotAffine = 0x80, ///< w is not 1
+    kNotAffine = 0x80,    ///< w is not 1
+    kBeyondBits = 0x3f00, ///< beyond that side of the image: below it along x, above it, along y, …; with a range test
 };
 
 /// Small triangles that wait for a full vector: sub-pixels and vertices (indices into VertexLanes).

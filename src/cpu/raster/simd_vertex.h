@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The vertex stage: exactVertex(), exactInside() and the vertex's part of exactSetUp().
+// The vertex stage: exactVertex(), exactInside(), and the vertex's part of exactBeyond() and exactSetUp().
 #if defined(VOXTACT_CPU_SIMD_VERTEX_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef VOXTACT_CPU_SIMD_VERTEX_H
 #undef VOXTACT_CPU_SIMD_VERTEX_H
@@ -45,6 +45,22 @@ HWY_INLINE IntV outsideBits(const ViewFacts& view, FloatV x, FloatV y, FloatV z,
     return hn::Or(hn::Or(depth, sides), hn::Or(bit(hn::Add(edgeY, y), 16), bit(hn::Sub(edgeY, y), 32)));
 }
 
+/// The bits of a VertexState that say on which side of the image a vertex is: exactBeyond().
+HWY_INLINE IntV beyondBits(const FloatV (&t)[3]) {
+    const Floats d;
+    const Ints ints;
+    const FloatV lo = hn::Set(d, -EXACT_BEYOND);
+    const FloatV hi = hn::Set(d, 1.0F + EXACT_BEYOND);
+    IntV bits = hn::Zero(ints);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto bit = [&](auto mask, std::int32_t first) {
+            return hn::IfThenElseZero(hn::RebindMask(ints, mask), hn::Set(ints, first << (2 * axis)));
+        };
+        bits = hn::Or(bits, hn::Or(bit(hn::Lt(t[axis], lo), 0x100), bit(hn::Gt(t[axis], hi), 0x200)));
+    }
+    return bits;
+}
+
 struct ClipW {
     FloatV w, q;
     IntV state;
@@ -82,19 +98,25 @@ HWY_INLINE std::int32_t transformVertices(const PairJob& job, const ClusterPlace
         const FloatV clipX = dot(transform.clip_from_object[0], x, y, z);
         const FloatV clipY = dot(transform.clip_from_object[1], x, y, z);
         const FloatV clipZ = dot(transform.clip_from_object[2], x, y, z);
-        const IntV state = hn::Or(clip.state, outsideBits(job.view, clipX, clipY, clipZ, clip.w));
+        IntV state = hn::Or(clip.state, outsideBits(job.view, clipX, clipY, clipZ, clip.w));
         const auto usable =
             hn::RebindMask(d, hn::Eq(hn::And(state, hn::Set(ints, kOutsideBits | kBadW)), hn::Zero(ints)));
-        hn::StoreU(state, ints, out.state + at + i);
         hn::StoreU(subpixel(clipX, clip.q, job.view.scaleX, usable), ints, out.x + at + i);
         hn::StoreU(subpixel(clipY, clip.q, job.view.scaleY, usable), ints, out.y + at + i);
-        states = hn::Or(states, state);
         if (textured) {
+            const FloatV t[3] = {dot(transform.texture_from_object[0], x, y, z),
+                                 dot(transform.texture_from_object[1], x, y, z),
+                                 dot(transform.texture_from_object[2], x, y, z)};
+            if (job.view.rangeTest) {
+                state = hn::Or(state, beyondBits(t));
+            }
             hn::StoreU(clip.q, d, out.q + at + i);
-            hn::StoreU(hn::Mul(dot(transform.texture_from_object[0], x, y, z), clip.q), d, out.tx + at + i);
-            hn::StoreU(hn::Mul(dot(transform.texture_from_object[1], x, y, z), clip.q), d, out.ty + at + i);
-            hn::StoreU(hn::Mul(dot(transform.texture_from_object[2], x, y, z), clip.q), d, out.tz + at + i);
+            hn::StoreU(hn::Mul(t[0], clip.q), d, out.tx + at + i);
+            hn::StoreU(hn::Mul(t[1], clip.q), d, out.ty + at + i);
+            hn::StoreU(hn::Mul(t[2], clip.q), d, out.tz + at + i);
         }
+        hn::StoreU(state, ints, out.state + at + i);
+        states = hn::Or(states, state);
     }
     HWY_ALIGN std::int32_t lanes[kMaxLanes] = {};
     hn::Store(states, ints, lanes);

@@ -70,6 +70,45 @@ TEST(Agreement, RandomScenes) {
     EXPECT_GT(tally.hits, tally.cases / 10) << "a test that hits nothing proves nothing";
 }
 
+TEST(Agreement, TrianglesWithAFarCorner) {
+    std::mt19937_64 random(testSeed());
+    PixelTally tally;
+    for (std::size_t round = 0; round < randomCases(20000, 40); ++round) {
+        const std::uint64_t seed = random();
+        std::mt19937_64 local(seed);
+        const RandomScene scene = makeFarCornerScene(local, 2);
+        const auto expected = scene.reference();
+        tally.add(expected);
+        ASSERT_EQ(engineCounts(scene, 1), survivorsOf(expected)) << "round " << round << ", scene " << seed;
+    }
+    EXPECT_GT(tally.hits, tally.cases / 50) << "a test that hits nothing proves nothing";
+}
+
+/// However far away its corner is, a triangle that does not meet the box of the volume has no survivor.
+TEST(Agreement, AFarCornerMakesNoSurvivors) {
+    RandomScene scene;
+    Grid grid;
+    grid.size = {24, 30, 27};
+    grid.spacing = {1.018961457930295, 1.8333917292845729, 1.8796871691628994};
+    grid.origin = {1.6428317214741561, -14.131109706015359, -1.6457729707796318};
+    scene.volume = makeBytes(grid, [](auto...) { return 255.0; });
+    scene.points.assign(byteRamp().begin(), byteRamp().end());
+    scene.domain = {0, 255};
+    scene.view = {framingCamera(grid, 64, 48), 64, 48};
+    scene.poses = {{0.44440840813124838, 0.8800755122344649, 0.16723713567116089, 0,     //
+                    0.76475705014031925, -0.46993962673729506, 0.44079859514600273, 0,   //
+                    0.46652740652927044, -0.067998823425532429, -0.88188907407327433, 0, //
+                    12.358907631947554, 41.291716131544618, 35.013796723994872, 1}};
+    scene.mesh.indices = {0, 1, 2};
+    for (const float far : {2.07101407e22F, 2.07101407e16F, 2.07101407e13F, 2.07101407e10F, 2.07101407e7F}) {
+        scene.mesh.positions = {-21.9121532F, 25.5159588F, 21.3404102F, 31.6302128F, -28.3482952F,
+                                far,          28.22435F,   10.7610626F, -5.14233494F};
+        EXPECT_EQ(engineCounts(scene, 1), std::vector<std::uint64_t>{0}) << far;
+        EXPECT_EQ(engineCounts(scene, 1, true), std::vector<std::uint64_t>{0}) << far;
+        EXPECT_EQ(survivorsOf(scene.reference()), std::vector<std::uint64_t>{0}) << far;
+    }
+}
+
 TEST(Agreement, EveryInstructionSet) {
     std::mt19937_64 random(testSeed());
     const std::int64_t all = hwy::SupportedTargets();

@@ -73,6 +73,37 @@ TEST(ExactText, ATriangleTurnedRoundIsCutAtTheSameBits) {
     EXPECT_GT(cut, 100);
 }
 
+/// Whichever end of an edge is far away, inside or outside of the plane, the place where it is cut is that of the
+/// other.
+TEST(ExactText, ACutIsAsExactAsTheNearerCorner) {
+    std::mt19937_64 random(testSeed());
+    for (int round = 0; round < 2000; ++round) {
+        ExactCorner inside = drawnCorner(random);
+        ExactCorner outside = drawnCorner(random);
+        ExactCorner& far = round % 2 == 0 ? inside : outside;
+        const auto scale = static_cast<float>(std::pow(10, uniform(random, 0, 20)));
+        for (float* of : {&far.x, &far.y, &far.tx, &far.ty, &far.tz}) {
+            *of *= scale;
+        }
+        const float in = drawn(random, 0.1, 1) * (round % 2 == 0 ? scale : 1);
+        const float out = -drawn(random, 0.1, 1) * (round % 2 == 0 ? 1 : scale);
+        const ExactCorner cut = shader::exactCut(inside, outside, in, out);
+        const double span = static_cast<double>(in) - out;
+        const auto expectNear = [&](float found, double a, double b) {
+            const double ofInside = -out / span * a;
+            const double ofOutside = in / span * b;
+            // A hundred roundings of what each of both contributes.
+            const double error = 100 * (std::abs(ofInside) + std::abs(ofOutside)) * 0x1p-24;
+            EXPECT_NEAR(found, ofInside + ofOutside, error) << "round " << round;
+        };
+        expectNear(cut.x, inside.x, outside.x);
+        expectNear(cut.y, inside.y, outside.y);
+        expectNear(cut.tx, inside.tx, outside.tx);
+        expectNear(cut.ty, inside.ty, outside.ty);
+        expectNear(cut.tz, inside.tz, outside.tz);
+    }
+}
+
 /// A corner with a w of 1 is no sign that the others have one, whichever it is.
 TEST(ExactText, ATriangleIsSeenInPerspectiveWhereOneOfItsCornersIs) {
     constexpr int kPixels = 64;

@@ -249,6 +249,24 @@ RandomScene makeRandomScene(std::mt19937_64& random, std::size_t poses) {
     return scene;
 }
 
+RandomScene makeFarCornerScene(std::mt19937_64& random, std::size_t poses) {
+    RandomScene scene = makeRandomScene(random, poses);
+    scene.volume = makeBytes(scene.volume.grid, [](auto...) { return 255.0; }); // what is inside survives
+    scene.points.assign(byteRamp().begin(), byteRamp().end());
+    scene.domain = {0, 255};
+    scene.threshold = kDefaultThreshold;
+    const Grid& grid = scene.volume.grid;
+    const double reach =
+        std::max({grid.spacing[0] * grid.size[0], grid.spacing[1] * grid.size[1], grid.spacing[2] * grid.size[2]});
+    scene.mesh = {};
+    scene.mesh.indices = {0, 1, 2};
+    for (int i = 0; i < 9; ++i) {
+        scene.mesh.positions.push_back(drawn(random, -1.5 * reach, 1.5 * reach));
+    }
+    scene.mesh.positions[below(random, 9)] *= static_cast<float>(std::pow(10, uniform(random, 0, 24)));
+    return scene;
+}
+
 std::vector<cpu::ReferenceCounts> RandomScene::reference() const {
     std::vector<cpu::ReferenceCounts> counts;
     for (const Mat4& pose : poses) {

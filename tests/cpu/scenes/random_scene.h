@@ -26,6 +26,9 @@ struct RandomScene {
 
 [[nodiscard]] RandomScene makeRandomScene(std::mt19937_64& random, std::size_t poses);
 
+/// A scene whose mesh is one triangle in and about the volume, with a corner that is finite, and far away.
+[[nodiscard]] RandomScene makeFarCornerScene(std::mt19937_64& random, std::size_t poses);
+
 [[nodiscard]] VolumeData randomVolume(std::mt19937_64& random);
 [[nodiscard]] MeshData randomMesh(std::mt19937_64& random, const Grid& grid);
 [[nodiscard]] View randomView(std::mt19937_64& random, const Grid& grid);

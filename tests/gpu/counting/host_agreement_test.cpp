@@ -181,6 +181,26 @@ TEST_F(RandomPosesTest, AllMethodsOnTheSecondHalf) {
     run();
 }
 
+TEST_F(HostAgreementTest, ComputeOfTrianglesWithAFarCorner) {
+    std::mt19937_64 random(testSeed());
+    const DetectorDesc desc{.method = CountingMethod::Compute, .filter = Filter::Exact, .boundary = Boundary::Range};
+    BlockingDetector compute = detector(desc);
+    cpu::Detector host = take(cpu::Detector::create({.boundary = Boundary::Range}));
+    std::size_t hits = 0;
+    const std::size_t scenes = randomCases(3000, 50);
+    for (std::size_t i = 0; i < scenes && !HasFailure(); ++i) {
+        const RandomScene scene = makeFarCornerScene(random, 2);
+        const BothSides sides(context(), queue(), scene);
+        const BatchItem item{&sides.mesh, &sides.volume, &sides.function, scene.poses};
+        const cpu::BatchItem hostItem{&sides.hostMesh, &sides.hostVolume, &sides.hostFunction, scene.poses};
+        const auto counts = countsOf(take(host.detect({std::span(&hostItem, 1), scene.view, scene.threshold})));
+        EXPECT_EQ(countsOf(take(compute.detect({std::span(&item, 1), scene.view, scene.threshold}))), counts)
+            << "scene " << i;
+        hits += std::ranges::count_if(counts, [](std::uint64_t count) { return count > 0; });
+    }
+    EXPECT_GT(hits, scenes / 50);
+}
+
 TEST_F(HostAgreementTest, AllMethodsByTwoView) {
     expectAgreementOnScenes(makeDetectors(Boundary::Range, Projection::TwoView),
                             makeDetectors(Boundary::Clamp, Projection::TwoView), randomCases(kScenes / 14, 10));
