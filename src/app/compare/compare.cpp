@@ -86,11 +86,10 @@ Outcome runCompare(const CompareOptions& given, const CLI::App& parser) {
     VOXTACT_TRY(scene);
     CompareResult result;
     const auto measure = [&](const device::Session& session) {
+        const DeviceStay stay(*scene);
         result.machine = describeMachine(session, scene->volume->data.type, provenanceOf(parser));
         ShownSteps shown(options.progress, "voxtact compare");
-        Result<void> done = compare(options.settings, *scene, session, shown.steps(), result);
-        scene->leaveDevice();
-        return done;
+        return compare(options.settings, *scene, session, shown.steps(), result);
     };
     if (Outcome failed = measureOn(options.device, measure); failed.status != kExitDone) {
         return failed;

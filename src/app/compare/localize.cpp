@@ -49,13 +49,12 @@ Outcome runLocalize(const CompareOptions& given, const CLI::App& parser) {
     VOXTACT_TRY(scene);
     LocalizeResult result;
     const auto measure = [&](const device::Session& session) {
+        const DeviceStay stay(*scene);
         result.machine = describeMachine(session, scene->volume->data.type, provenanceOf(parser));
         ShownSteps shown(options.progress, "voxtact compare");
         const Steps steps = shown.steps();
         steps.begin(std::uint64_t{options.settings.repeats} * scene->poses.size());
-        Result<void> done = localize(session, options.settings, *scene, result, steps.step);
-        scene->leaveDevice();
-        return done;
+        return localize(session, options.settings, *scene, result, steps.step);
     };
     if (Outcome failed = measureOn(options.device, measure); failed.status != kExitDone) {
         return failed;

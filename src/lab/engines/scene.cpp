@@ -49,11 +49,11 @@ Scene Scene::withPoses(std::uint32_t count) const {
     return some;
 }
 
-void Scene::leaveDevice() const {
-    volume->deviceLabels.reset();
-    volume->deviceFunction.reset();
-    volume->device.reset();
-    mesh->device.reset();
+DeviceStay::~DeviceStay() {
+    volume_.deviceLabels.reset();
+    volume_.deviceFunction.reset();
+    volume_.device.reset();
+    mesh_.device.reset();
 }
 
 Result<void> makeHost(VolumePart& volume) {

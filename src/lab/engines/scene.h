@@ -54,7 +54,7 @@ struct MeshPart {
 /// What is measured: a mesh at some poses against a volume, and the camera of
 /// the projections that have one. Copies share the parts. What is on a device
 /// must end before the device: a session outlives the scenes made ready for it,
-/// or they leaveDevice().
+/// or a DeviceStay ends before it.
 struct Scene {
     std::shared_ptr<VolumePart> volume;
     std::shared_ptr<MeshPart> mesh;
@@ -65,7 +65,20 @@ struct Scene {
 
     /// `count` of the poses, spread evenly.
     [[nodiscard]] Scene withPoses(std::uint32_t count) const;
-    void leaveDevice() const;
+};
+
+/// Of a scene that outlives the session it is made ready for: when the stay ends, by an exception too, nothing of the
+/// scene is on the device any more.
+class DeviceStay {
+  public:
+    explicit DeviceStay(const Scene& scene) noexcept : volume_(*scene.volume), mesh_(*scene.mesh) {}
+    DeviceStay(const DeviceStay&) = delete;
+    DeviceStay& operator=(const DeviceStay&) = delete;
+    ~DeviceStay();
+
+  private:
+    VolumePart& volume_;
+    MeshPart& mesh_;
 };
 
 /// `count` numbers below `total`, spread evenly; all of them when there are no more.
