@@ -66,6 +66,31 @@ TEST(CompareJudge, GroupsMayDifferAndAreTold) {
     EXPECT_THAT(verdict.detail, HasSubstr("4 of 23 fragments"));
 }
 
+TEST(CompareJudge, ARasteriserThatLosesHalfOfAMeshIsADisagreement) {
+    const auto judge = [](std::uint64_t raster, std::uint64_t host) {
+        return lab::judgeRounding({"query", {5, raster, 9}}, {"cpu", {5, host, 9}}, kPoses);
+    };
+    EXPECT_FALSE(judge(86, 300).failed()) << "half and 64 apart";
+    const Verdict lost = judge(85, 300);
+    ASSERT_TRUE(lost.failed());
+    EXPECT_EQ(lost.first->pose, 11U);
+    EXPECT_EQ(lost.first->text, "query 85, cpu 300");
+    EXPECT_TRUE(judge(515, 300).failed()) << "or has too much";
+    EXPECT_TRUE(lab::judgeRounding({"query-any", {1, 0, 1}}, {"cpu", {5, 65, 9}}, kPoses).failed());
+    EXPECT_FALSE(lab::judgeRounding({"query-any", {1, 0, 1}}, {"cpu", {5, 64, 9}}, kPoses).failed());
+    // Of all methods: the rasteriser's agree with each other.
+    const std::vector<NamedCounts> all{
+        {"query", {0, 9, 0}}, {"atomic", {0, 9, 0}}, {"compute", {0, 900, 0}}, {"cpu", {0, 900, 0}}};
+    EXPECT_EQ(std::ranges::count_if(lab::judgeCounts(all, kPoses), &Verdict::failed), 1);
+}
+
+TEST(CompareJudge, PosesThatTouchAreThoseOfAnyMethod) {
+    EXPECT_THAT(lab::touchingPoses(std::vector<NamedCounts>{{"query", {0, 5, 0, 0}}, {"cpu", {0, 5, 0, 1}}}),
+                ElementsAre(1, 3));
+    EXPECT_THAT(lab::touchingPoses(std::vector<NamedCounts>{{"cpu", {0, 0}}}), ElementsAre());
+    EXPECT_THAT(lab::touchingPoses({}), ElementsAre());
+}
+
 FragmentCheck checkOf(std::uint32_t pose, const std::vector<Doubt>& doubts) {
     FragmentCheck check{.pose = pose, .onDevice = 100 + doubts.size(), .byOracle = 100, .counted = 100 + doubts.size()};
     for (const Doubt doubt : doubts) {
@@ -98,6 +123,15 @@ TEST(CompareJudge, AFragmentWithoutAReasonIsADisagreement) {
     EXPECT_EQ(verdict.first->pose, 2U);
     EXPECT_THAT(verdict.first->text, HasSubstr("triangle 42 at pixel 3,4"));
     EXPECT_THAT(countsOf(checks), ElementsAre(1, 0, 1, 1));
+}
+
+TEST(CompareJudge, NoFragmentIsNotChecked) {
+    const std::vector<FragmentCheck> checks{{.pose = 1}, {.pose = 2}};
+    const Verdict verdict = lab::judgeFragments(checks);
+    EXPECT_FALSE(verdict.failed());
+    EXPECT_NE(verdict.unchecked, "");
+    const std::vector<FragmentCheck> lost{{.pose = 1, .counted = 3}};
+    EXPECT_TRUE(lab::judgeFragments(lost).failed()) << "it lists none of the three";
 }
 
 TEST(CompareJudge, AListThatIsNotWhatWasCountedIsADisagreement) {

@@ -17,12 +17,9 @@ bool countsNothing(const PairAnswer& answer) {
 
 /// Whether a rasteriser's answer can be the host's but for roundings at pixels' centres and between table entries.
 bool isNear(const PairAnswer& answer, const PairAnswer& host) {
-    const std::uint64_t most = kRoundedFragments + host.count / 2;
-    if (countsNothing(answer)) {
-        return answer.hit == host.hit || host.count <= kRoundedFragments;
-    }
-    const std::uint64_t apart = std::max(answer.count, host.count) - std::min(answer.count, host.count);
-    return apart <= most && answer.hit == (answer.count > 0);
+    const bool any = countsNothing(answer);
+    const std::uint64_t counted = any ? (answer.hit ? 1 : 0) : answer.count;
+    return explainedByRounding(counted, host.count, any) && answer.hit == (counted > 0);
 }
 
 /// Whether an answer in the view is not the host's.

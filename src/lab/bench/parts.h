@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lab/bench/bench.h"
+#include "lab/compare/agreement.h"
 #include "lab/measure/rounds.h"
 
 /// The parts of a run of bench().
@@ -59,9 +60,6 @@ struct PoseTruth {
     /// In the view by the device's rasteriser, all of whose methods must count the same: nothing until one has.
     std::optional<PairAnswer> raster{};
 };
-
-/// Fragments by which a rasteriser may count otherwise than the host, besides half of what the host counts.
-inline constexpr std::uint64_t kRoundedFragments = 64;
 
 /// What is wrong with an answer, or nothing; `truth` learns what the rasteriser counts from the first method that does.
 /// A certified answer must be the host's; those of a rasteriser must be each other's, and near the host's in the view.

@@ -10,6 +10,11 @@ namespace voxtact::lab {
 
 namespace {
 
+/// Of the method that counts 0 or 1.
+bool isAny(const NamedCounts& counts) {
+    return counts.method == toString(CountingMethod::QueryAny);
+}
+
 std::string countText(const NamedCounts& counts, std::size_t at) {
     return counts.method + " " + std::to_string(counts.counts[at]);
 }
@@ -86,7 +91,7 @@ std::vector<NamedCounts> countsBy(std::span<const NamedCounts> counts, Coverage 
 std::vector<Verdict> judgeCounts(std::span<const NamedCounts> counts, std::span<const std::uint32_t> poses) {
     const std::vector<NamedCounts> raster = countsBy(counts, Coverage::Rasteriser);
     const std::vector<NamedCounts> exact = countsBy(counts, Coverage::Computed);
-    const auto any = std::ranges::find(counts, toString(CountingMethod::QueryAny), &NamedCounts::method);
+    const auto any = std::ranges::find_if(counts, isAny);
     std::vector<Verdict> verdicts{judgeGroup(raster, Coverage::Rasteriser, poses)};
     if (any != counts.end() && !raster.empty()) {
         verdicts.push_back(judgeHits(*any, raster.front(), poses));
@@ -94,8 +99,21 @@ std::vector<Verdict> judgeCounts(std::span<const NamedCounts> counts, std::span<
     verdicts.push_back(judgeGroup(exact, Coverage::Computed, poses));
     if (!raster.empty() && !exact.empty()) {
         verdicts.push_back(tellDifference(raster.front(), exact.back(), poses));
+        verdicts.push_back(judgeRounding(raster.front(), exact.back(), poses));
+    } else if (any != counts.end() && !exact.empty()) {
+        verdicts.push_back(judgeRounding(*any, exact.back(), poses));
     }
     return verdicts;
+}
+
+std::vector<std::uint32_t> touchingPoses(std::span<const NamedCounts> counts) {
+    std::vector<std::uint32_t> places;
+    for (std::uint32_t i = 0; !counts.empty() && i < counts.front().counts.size(); ++i) {
+        if (std::ranges::any_of(counts, [i](const NamedCounts& by) { return by.counts[i] > 0; })) {
+            places.push_back(i);
+        }
+    }
+    return places;
 }
 
 Verdict judgeEqual(std::span<const NamedCounts> group, std::span<const std::uint32_t> poses) {
@@ -121,12 +139,34 @@ Verdict judgeEqual(std::span<const NamedCounts> group, std::span<const std::uint
 }
 
 Verdict judgeHits(const NamedCounts& any, const NamedCounts& exact, std::span<const std::uint32_t> poses) {
-    Verdict verdict{.rule = any.method + " hits where " + exact.method + " does", .hits = true};
+    Verdict verdict{.rule = any.method + " hits where " + exact.method + " does", .byRule = true};
     const auto hits = [](const NamedCounts& by, std::size_t i) { return by.counts[i] != 0; };
     comparePoses(
         poses, verdict, [&](std::size_t i) { return std::uint64_t{hits(any, i) == hits(exact, i) ? 0U : 1U}; },
         [&](std::size_t i) { return any.method + (hits(any, i) ? " hits, " : " misses, ") + countText(exact, i); });
     verdict.largest = 0; // no difference of counts
+    return verdict;
+}
+
+bool explainedByRounding(std::uint64_t raster, std::uint64_t host, bool yesNo) noexcept {
+    if (yesNo) {
+        return (raster > 0) == (host > 0) || host <= kRoundedFragments;
+    }
+    return std::max(raster, host) - std::min(raster, host) <= host / 2 + kRoundedFragments;
+}
+
+Verdict judgeRounding(const NamedCounts& raster, const NamedCounts& host, std::span<const std::uint32_t> poses) {
+    const bool yesNo = isAny(raster);
+    Verdict verdict{.rule = raster.method + " is what roundings make of " + host.method + " (" +
+                            (yesNo ? "" : "half of its count and ") + std::to_string(kRoundedFragments) +
+                            " fragments at most)",
+                    .byRule = true};
+    const auto apart = [&](std::size_t i) -> std::uint64_t {
+        const auto [least, most] = std::minmax(raster.counts[i], host.counts[i]);
+        return explainedByRounding(raster.counts[i], host.counts[i], yesNo) ? 0 : most - least;
+    };
+    comparePoses(poses, verdict, apart,
+                 [&](std::size_t i) { return countText(raster, i) + ", " + countText(host, i); });
     return verdict;
 }
 
@@ -164,6 +204,9 @@ Verdict judgeFragments(std::span<const FragmentCheck> checks) {
         if (const std::optional<std::string> fault = faultOf(check); fault && !verdict.first) {
             verdict.first = {check.pose, *fault};
         }
+    }
+    if (verdict.compared == 0 && !verdict.first) {
+        verdict.unchecked = "neither has a fragment on these poses";
     }
     std::vector<std::string> reasons;
     for (const oracle::Doubt doubt : kDoubts) {

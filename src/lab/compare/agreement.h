@@ -31,10 +31,10 @@ struct Verdict {
     std::string rule{};          ///< "query = atomic = subgroup"
     std::string members{};       ///< of the rule: "query, atomic and subgroup"
     std::string unit = "poses";  ///< what is counted below
-    bool hits = false;           ///< compared is whether they hit, not how often
+    bool byRule = false;         ///< compared is what the rule says, not whether counts are equal
     bool required = true;        ///< a difference is a disagreement; otherwise it is only told
     std::string unchecked{};     ///< why there was nothing to compare; empty: it was compared
-    std::uint64_t compared = 0;  ///< units
+    std::uint64_t compared = 0;  ///< units; 0 where it is unchecked
     std::uint64_t differing = 0; ///< of these
     std::uint64_t largest = 0;   ///< difference of two counts, in fragments
     std::string detail{};        ///< a line for people
@@ -51,13 +51,23 @@ struct Verdict {
 [[nodiscard]] Verdict judgeEqual(std::span<const NamedCounts> group, std::span<const std::uint32_t> poses);
 /// A hit of the one (not zero) exactly where the other has a fragment.
 [[nodiscard]] Verdict judgeHits(const NamedCounts& any, const NamedCounts& exact, std::span<const std::uint32_t> poses);
+/// Fragments by which a rasteriser may count otherwise than the host, besides half of what the host counts.
+inline constexpr std::uint64_t kRoundedFragments = 64;
+/// Whether what a rasteriser counts can be what the host counts but for roundings at pixels' centres and between table
+/// entries. `yesNo`: of a method that knows whether there are fragments, and not how many.
+[[nodiscard]] bool explainedByRounding(std::uint64_t raster, std::uint64_t host, bool yesNo = false) noexcept;
+/// That holds on every pose.
+[[nodiscard]] Verdict judgeRounding(const NamedCounts& raster, const NamedCounts& host,
+                                    std::span<const std::uint32_t> poses);
 /// Two counts that rounding may tell apart: told, never a disagreement.
 [[nodiscard]] Verdict tellDifference(const NamedCounts& one, const NamedCounts& other,
                                      std::span<const std::uint32_t> poses);
 
 /// Of the methods that count all fragments, of the device's rasteriser or the exact ones.
 [[nodiscard]] std::vector<NamedCounts> countsBy(std::span<const NamedCounts> counts, Coverage coverage);
-/// The rules for counts: who must agree, and how far the two groups are apart.
+/// The places of the poses on which one of the methods counts anything.
+[[nodiscard]] std::vector<std::uint32_t> touchingPoses(std::span<const NamedCounts> counts);
+/// The rules for counts: who must agree, how far the two groups are apart, and that roundings explain it.
 [[nodiscard]] std::vector<Verdict> judgeCounts(std::span<const NamedCounts> counts,
                                                std::span<const std::uint32_t> poses);
 

@@ -81,6 +81,33 @@ const Verdict* CompareResult::firstFailure() const {
     return found == verdicts.end() ? nullptr : &*found;
 }
 
+std::optional<bool> CompareResult::agrees() const {
+    if (firstFailure() != nullptr) {
+        return false;
+    }
+    const bool any = std::ranges::any_of(
+        verdicts, [](const Verdict& verdict) { return verdict.required && verdict.unchecked.empty(); });
+    return any ? std::optional(true) : std::nullopt;
+}
+
+Result<void> addTrust(const device::Session& session, std::vector<MethodEntry>& methods,
+                      std::vector<std::string>& notes) {
+    const Result<std::vector<SelfTestVerdict>> verdicts = selfTest(session.context, session.device.queueAccess());
+    VOXTACT_TRY(verdicts);
+    for (const SelfTestVerdict& verdict : *verdicts) {
+        const auto method = std::ranges::find(methods, toString(verdict.method), &MethodEntry::name);
+        if (method == methods.end()) {
+            continue;
+        }
+        method->trusted = verdict.trusted;
+        method->selfTest = verdict.text;
+        if (method->available && !verdict.trusted) {
+            notes.push_back(method->name + " is not to be trusted on this device, by its self-test: " + verdict.text);
+        }
+    }
+    return {};
+}
+
 Result<Engines> makeMethodEngines(const device::Session& session, const CompareSettings& settings,
                                   CompareResult& result) {
     EngineList engines;
@@ -121,6 +148,9 @@ Result<void> checkCounts(const CompareRun& run) {
     VOXTACT_TRY(counts);
     run.result.counts = std::move(*counts);
     run.result.verdicts = judgeCounts(run.result.counts, run.scene.poseNumbers);
+    if (touchingPoses(run.result.counts).empty()) {
+        run.result.notes.emplace_back("nothing touches on any pose: that the methods agree says little");
+    }
     run.step();
     return {};
 }
@@ -131,6 +161,7 @@ Result<void> compare(const CompareSettings& settings, const Scene& scene, const 
     result.poseNumbers = scene.poseNumbers;
     const Result<Engines> engines = makeMethodEngines(session, settings, result);
     VOXTACT_TRY(engines);
+    VOXTACT_TRY(addTrust(session, result.methods, result.notes));
     std::uint64_t total = 1 + std::min<std::uint64_t>(settings.oraclePoses, scene.poses.size());
     for (const Sweep sweep : settings.sweeps) {
         total += stepsOf(sweep, settings.repeats);

@@ -59,7 +59,9 @@ struct MethodEntry {
     bool available = true;
     std::string reason; ///< why not
     std::string filter;
-    bool exact = true; ///< false: zero or not zero
+    bool exact = true;      ///< false: zero or not zero
+    bool trusted = true;    ///< the self-test's verdict; always of cpu
+    std::string selfTest{}; ///< what it counted, or what is wrong; nothing of cpu
 };
 
 /// Everything that the outputs say.
@@ -75,6 +77,8 @@ struct CompareResult {
     std::vector<std::string> notes;
 
     [[nodiscard]] const Verdict* firstFailure() const;
+    /// Whether the rules hold; nothing where there was nothing to hold against each other.
+    [[nodiscard]] std::optional<bool> agrees() const;
 };
 
 /// The same pairs by every method: verified first, then timed, unless a verdict failed and the run is not to go on.
@@ -86,6 +90,9 @@ struct CompareResult {
 /// none.
 [[nodiscard]] Result<Engines> makeMethodEngines(const device::Session& session, const CompareSettings& settings,
                                                 CompareResult& result);
+/// Asks the self-test, as `voxtact devices` does, which of the methods can be trusted; a note of each that cannot.
+[[nodiscard]] Result<void> addTrust(const device::Session& session, std::vector<MethodEntry>& methods,
+                                    std::vector<std::string>& notes);
 /// Counts every pose by every method.
 [[nodiscard]] Result<std::vector<NamedCounts>> countAll(const Engines& engines, const Work& work);
 
@@ -104,8 +111,8 @@ struct CompareRun {
 
 /// Counts every pose by every method, and judges the counts.
 [[nodiscard]] Result<void> checkCounts(const CompareRun& run);
-/// The device's fragments against the oracle's, on as many poses as the settings say, spread evenly. Adds to the result
-/// the checks, the verdicts and the oracle's counts and time.
+/// The device's fragments against the oracle's, on as many poses as the settings say, spread evenly over those on which
+/// a method counts anything. Adds to the result the checks, the verdicts and the oracle's counts and time.
 [[nodiscard]] Result<void> checkFragments(const CompareRun& run);
 
 /// Times one sweep and adds its series to the result. Batches are of the scene; the others verify the counts of each

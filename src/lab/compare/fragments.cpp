@@ -82,9 +82,14 @@ Result<void> checkFragments(const CompareRun& run) {
     if (!trace.ok()) {
         return trace.error().code == ErrorCode::Unsupported ? unchecked(trace.error().text) : trace.error();
     }
+    const std::vector<std::uint32_t> touching = touchingPoses(result.counts);
+    if (touching.empty()) {
+        return unchecked("nothing touches on any pose");
+    }
     const oracle::Tolerance tolerance{.value = result.machine.filterError};
     const std::vector<NamedCounts> raster = countsBy(result.counts, Coverage::Rasteriser);
-    const std::vector<std::uint32_t> sample = spreadEvenly(poses, static_cast<std::uint32_t>(run.scene.poses.size()));
+    std::vector<std::uint32_t> sample = spreadEvenly(poses, static_cast<std::uint32_t>(touching.size()));
+    std::ranges::transform(sample, sample.begin(), [&](std::uint32_t at) { return touching[at]; });
     double milliseconds = 0;
     for (const std::uint32_t index : sample) {
         Result<FragmentCheck> checked = check(*trace, run.scene, index, tolerance, milliseconds);

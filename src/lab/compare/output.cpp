@@ -11,7 +11,7 @@ Json verdictJson(const Verdict& verdict) {
     Json json{{"rule", verdict.rule},
               {"required", verdict.required},
               {"checked", verdict.unchecked.empty()},
-              {"agrees", !verdict.failed()},
+              {"agrees", verdict.unchecked.empty() ? Json(!verdict.failed()) : Json()},
               {"unit", verdict.unit},
               {"compared", verdict.compared},
               {"differing", verdict.differing},
@@ -64,15 +64,13 @@ Json oracleJson(const CompareResult& result) {
     return json;
 }
 
-Json methodJson(const MethodEntry& method) {
-    return {{"method", method.name},
-            {"available", method.available},
-            {"reason", method.reason},
-            {"filter", method.filter},
-            {"exact", method.exact}};
-}
-
 } // namespace
+
+Json methodJson(const MethodEntry& method) {
+    return {{"method", method.name},       {"available", method.available}, {"reason", method.reason},
+            {"filter", method.filter},     {"exact", method.exact},         {"trusted", method.trusted},
+            {"self_test", method.selfTest}};
+}
 
 Row rowOf(const Series& series) {
     return Row()
@@ -125,7 +123,7 @@ Output compareOutput(const Scene& scene, const CompareResult& result) {
     Json& json = output.members;
     json["scene"] = sceneJson(scene);
     json["summary"] = output.sentences;
-    json["agrees"] = result.firstFailure() == nullptr;
+    json["agrees"] = result.agrees() ? Json(*result.agrees()) : Json();
     json["methods"] = arrayOf(result.methods, methodJson);
     json["agreement"] = arrayOf(result.verdicts, verdictJson);
     json["oracle"] = oracleJson(result);

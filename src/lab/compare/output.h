@@ -7,6 +7,7 @@
 namespace voxtact::lab {
 
 [[nodiscard]] Json sceneJson(const Scene& scene);
+[[nodiscard]] Json methodJson(const MethodEntry& method);
 [[nodiscard]] Row rowOf(const Series& series);
 /// One row a series.
 [[nodiscard]] io::Table seriesTable(const std::vector<Series>& series);

@@ -40,7 +40,7 @@ std::string sentenceOf(const Verdict& verdict) {
     }
     const std::string where = (verdict.compared == 1 ? "the one pose" : "all " + plural(verdict.compared, "poses"));
     if (verdict.differing == 0) {
-        return verdict.hits ? verdict.rule + ", on " + where : verdict.members + " count the same on " + where;
+        return verdict.byRule ? verdict.rule + ", on " + where : verdict.members + " count the same on " + where;
     }
     return verdict.members + " differ on " + grouped(verdict.differing) + " of " + plural(verdict.compared, "poses") +
            ", by at most " + plural(verdict.largest, "fragments") + " (" + verdict.detail + ")";

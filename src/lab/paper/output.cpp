@@ -255,6 +255,7 @@ Output outputOf(const PaperResult& result) {
                          {"preintegration_ms", published::kIntegrationMilliseconds}};
     json["summary"] = output.sentences;
     json["agrees"] = result.disagreement.empty();
+    json["methods"] = arrayOf(result.methods, methodJson);
     json["scenes"] = arrayOf(result.scenes, sceneJson);
     json["tables"] = arrayOf(result.rows, [&](const PaperRow& row) { return rowJson(row, result); });
     json["series"] = seriesJson(result.series, result.machine);

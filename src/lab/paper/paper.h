@@ -122,6 +122,7 @@ struct PaperResult {
     Machine machine;
     std::uint32_t width = 0; ///< of frames and viewport
     std::uint32_t height = 0;
+    std::vector<MethodEntry> methods;
     std::vector<PaperScene> scenes;
     std::vector<PaperRow> rows;
     std::vector<Series> series;         ///< sweeps: batches, triangles, fragments, voxels; of v1s1 where not varied

@@ -40,6 +40,13 @@ void addAgreement(const PaperResult& result, std::vector<std::string>& sentences
     if (!where.empty()) {
         sentences.push_back(where + ", on every pose of every scene; every frame that was timed gave these counts");
     }
+    const std::vector<std::string> raster = measured(result, {Query, Atomic, Subgroup});
+    if (!raster.empty() && !measured(result, {Cpu}).empty()) {
+        sentences.push_back(raster.front() +
+                            " and cpu are as far apart as roundings explain, no pose by more than half of "
+                            "cpu's count and " +
+                            std::to_string(kRoundedFragments) + " fragments; no oracle was asked");
+    }
 }
 
 /// A row with the median of something.

@@ -33,6 +33,10 @@ Result<std::vector<NamedCounts>> verify(const PaperRun& run, const PaperInput& i
     const CompareSettings settings;
     const Result<Engines> engines = makeMethodEngines(run.session, settings, compared);
     VOXTACT_TRY(engines);
+    if (run.result.methods.empty()) {
+        run.result.methods = compared.methods;
+        VOXTACT_TRY(addTrust(run.session, run.result.methods, run.result.notes));
+    }
     VOXTACT_TRY(checkCounts({run.session, settings, input.scene, *engines, compared, run.steps.step}));
     for (const std::string& note : compared.notes) {
         run.note(note);
