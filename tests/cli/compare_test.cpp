@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <map>
 
 namespace voxtact::test {
 namespace {
@@ -131,15 +132,33 @@ TEST_F(CompareTest, EverySeriesSaysWhatItWasMeasuredOn) {
     }
 }
 
+/// However little time there is, what stands side by side is of the same pairs.
+TEST_F(CompareTest, MethodsAreTimedOnTheSamePoses) {
+    const Json result =
+        Json::parse(output({"compare", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:500", "--number",
+                            "128", "--oracle", "0", "--size", "64x64", "--time-limit", "1", "--repetitions", "2",
+                            "--methods", "query,atomic,compute,cpu", "--format", "json"}));
+    std::map<std::string, Json> first;
+    for (const Json& series : result["series"]) {
+        const std::string way = series["mode"].get<std::string>() + " " + series["batch"].dump();
+        const Json& same = first.emplace(way, series).first->second;
+        EXPECT_EQ(series["pairs_a_sample"], same["pairs_a_sample"]) << way << " " << series["method"];
+        const double fragments = same["fragments_a_pair"];
+        EXPECT_NEAR(series["fragments_a_pair"], fragments, 0.02 * fragments) << way << " " << series["method"];
+    }
+    EXPECT_LT(first.at("sync 1")["pairs_a_sample"], 128);
+    EXPECT_THAT(result["notes"].dump(), HasSubstr("waited for: the times of all methods are of the same "));
+}
+
 TEST_F(CompareTest, CsvHasOneHeaderAndSaysWhatAgrees) {
     const auto lines = linesOf(output(compare({"--methods", "query,cpu"})));
     EXPECT_EQ(lines.front(),
               "sweep,method,mode,batch,width,height,triangles,fragments,samples,wall_ms_median,wall_ms_p10,wall_ms_p90,"
-              "gpu_ms_median,pairs_per_s,fragments_per_s,voxels");
+              "gpu_ms_median,pairs_per_s,fragments_per_s,voxels,pairs_a_sample");
     std::size_t rows = 0;
     for (std::size_t i = 1; i < lines.size() && !lines[i].starts_with("#"); ++i, ++rows) {
-        EXPECT_EQ(std::count(lines[i].begin(), lines[i].end(), ','), 15) << lines[i];
-        EXPECT_EQ(fieldsOf(lines[i]).back(), "32x32x32");
+        EXPECT_EQ(std::count(lines[i].begin(), lines[i].end(), ','), 16) << lines[i];
+        EXPECT_EQ(fieldsOf(lines[i]).at(15), "32x32x32");
     }
     EXPECT_EQ(rows, 2U * 8U + 1U) << "two methods, two modes, four batches; and the oracle";
     const std::vector<std::string> comments(lines.begin() + static_cast<std::ptrdiff_t>(rows) + 1, lines.end());

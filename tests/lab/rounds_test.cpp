@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How things are timed: in which order, how often, and what ends it.
+#include "lab/compare/compare.h"
 #include "lab/measure/rounds.h"
 
 #include <gmock/gmock.h>
@@ -36,6 +37,19 @@ class RoundsTest : public testing::Test {
 
     std::vector<std::string> taken_;
 };
+
+TEST(SampleSizeTest, IsWhatTheSlowestCanDo) {
+    // 10 batches of 5 ms fit in 50 ms; 50 of 1 ms are 5 times those; one that is not timed does not count.
+    const auto size = lab::sampleSize(std::vector<double>{5, 1, kNoLimit}, 50, 1000);
+    EXPECT_EQ(size.batches, 10U);
+    EXPECT_THAT(size.passes, ElementsAre(1, 5, 0));
+    const auto slow = lab::sampleSize(std::vector<double>{500, 1}, 50, 1000);
+    EXPECT_EQ(slow.batches, 1U) << "one at least";
+    EXPECT_THAT(slow.passes, ElementsAre(1, 50));
+    const auto still = lab::sampleSize(std::vector<double>{0, 0.01}, 50, 8);
+    EXPECT_EQ(still.batches, 8U) << "no more than there are";
+    EXPECT_THAT(still.passes, ElementsAre(1, 1));
+}
 
 TEST_F(RoundsTest, EachIsTakenOnceARound) {
     int steps = 0;

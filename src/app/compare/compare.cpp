@@ -26,16 +26,18 @@ of an edge, of the volume's boundary or of the threshold. Otherwise the exit sta
 command line that shows it again, and nothing is written.
 
 Times, after a warm-up. wall_ms is of a batch of pairs, gpu_ms the device's part. Mode sync: each pair is submitted and
-waited for alone, which is the paper's way, over all poses. Mode pipelined: a batch a submission, three in flight (cpu:
-a batch a call). Poses go round, so that none is warm in a cache.
+waited for alone, which is the paper's way. Mode pipelined: a batch a submission, three in flight (cpu: a batch a call).
+Of one mode and batch all methods take the same poses, as many as the slowest can do in its share of --time-limit
+(pairs_a_sample); faster ones take them again and again. Where a batch has more pairs than there are poses, they go
+round.
 
 With --localize instead: which triangles touch, by the paper's two ways (an occlusion query a triangle; one a leaf of
 an OBB tree that meets the volume's box, or what its bricks hold), by the fragments of one pass, and by bounds, which
 miss none. The ways that look through the camera must agree, triangle by triangle; otherwise the exit status is 3.
 
 Columns of CSV: sweep,method,mode,batch,width,height,triangles,fragments (survivors of a pair, on average),samples,
-wall_ms_median,wall_ms_p10,wall_ms_p90,gpu_ms_median,pairs_per_s,fragments_per_s,voxels; then comments with what was
-found.
+wall_ms_median,wall_ms_p10,wall_ms_p90,gpu_ms_median,pairs_per_s,fragments_per_s,voxels,pairs_a_sample; then comments
+with what was found.
 
 Examples:
   voxtact compare --volume builtin:head:128 --mesh builtin:scalpel

@@ -35,7 +35,7 @@ struct Series {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     std::uint32_t triangles = 0;
-    std::uint32_t pairs = 0;           ///< measured in a sample
+    std::uint32_t pairs = 0;           ///< of a sample, the same for all methods; fast ones take them more than once
     std::optional<double> fragments{}; ///< survivors of a pair, on average
     std::vector<double> wall{};        ///< ms of a batch, a sample each
     std::vector<double> gpu{};         ///< the same; empty where there is no GPU time
@@ -114,6 +114,15 @@ struct CompareRun {
 /// The device's fragments against the oracle's, on as many poses as the settings say, spread evenly over those on which
 /// a method counts anything. Adds to the result the checks, the verdicts and the oracle's counts and time.
 [[nodiscard]] Result<void> checkFragments(const CompareRun& run);
+
+/// What a sample of methods is that are timed on the same poses.
+struct SampleSize {
+    std::size_t batches = 1; ///< of which it is, for all of them
+    std::vector<std::size_t>
+        passes{}; ///< how often each takes these, so that no sample is too short; 0: it is not timed
+};
+/// `milliseconds`: of a batch by each, kNoLimit for one that is not timed; `most`: of a sample; of `all` batches.
+[[nodiscard]] SampleSize sampleSize(std::span<const double> milliseconds, double most, std::size_t all);
 
 /// Times one sweep and adds its series to the result. Batches are of the scene; the others verify the counts of each
 /// point first, and time nothing where they are wrong and the run is not to go on:

@@ -81,14 +81,14 @@ Row rowOf(const Series& series) {
         .add("width", series.width)
         .add("height", series.height)
         .add("triangles", series.triangles)
-        .member("pairs_a_sample", series.pairs)
         .add({"fragments", "fragments_a_pair"}, series.fragments)
         .add({"samples", ""}, series.wall.size())
         .add("wall_ms", series.wall, {"_median", "_p10", "_p90"})
         .add("gpu_ms", series.gpu, {"_median"})
         .add("pairs_per_s", series.pairsPerSecond())
         .add("fragments_per_s", series.fragmentsPerSecond())
-        .add({"voxels", ""}, sizeText(series.voxels));
+        .add({"voxels", ""}, sizeText(series.voxels))
+        .add("pairs_a_sample", series.pairs);
 }
 
 io::Table seriesTable(const std::vector<Series>& series) {

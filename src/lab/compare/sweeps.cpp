@@ -33,6 +33,8 @@ struct Point {
     Work work;
     Feeding feeding{};
     Series series{};
+    double batchMilliseconds = 0; ///< kNoLimit: too long to be timed
+    std::vector<Mat4> again{};    ///< the poses of a sample, where they are taken more than once
 };
 
 Point makePoint(Sweep sweep, const Engine& engine, const Work& work, Mode mode, std::uint32_t batch) {
@@ -66,39 +68,70 @@ std::string describe(const Series& series) {
            " voxels): one would take more than a quarter of the sweep's time";
 }
 
-/// Everything is made and touched once. Cuts a sample that would take too long, to whole batches; where even one batch
-/// would, there is none, and a note.
-Result<double> warmUp(Point& point, double share, double most, CompareResult& result) {
+/// Everything is made and touched once, and says how long a batch takes. One that would take longer than `most` is not
+/// timed, with a note.
+Result<void> warmUp(Point& point, double most, CompareResult& result) {
     Work some = point.work;
     some.poses = some.poses.first(std::min<std::size_t>(some.poses.size(), kWarmUpPairs));
     // The first pass may make pipelines: only the second one says how long a batch takes.
     VOXTACT_TRY(point.engine->run(some, point.feeding));
     const Result<Pass> pass = point.engine->run(some, point.feeding);
     VOXTACT_TRY(pass);
-    const double aBatch = pass->wallMilliseconds / static_cast<double>(some.poses.size()) * point.series.batch;
-    const std::size_t all = point.work.poses.size() / point.series.batch;
-    const auto fitting = static_cast<std::size_t>(std::min(share / kSamplesInShare / aBatch, static_cast<double>(all)));
-    point.work.poses = point.work.poses.first(std::max<std::size_t>(fitting, 1) * point.series.batch);
-    point.series.pairs = static_cast<std::uint32_t>(point.work.poses.size());
-    if (aBatch > most) {
+    point.batchMilliseconds = pass->wallMilliseconds / static_cast<double>(some.poses.size()) * point.series.batch;
+    if (point.batchMilliseconds > most) {
         result.notes.push_back(describe(point.series));
-        return kNoLimit;
+        point.batchMilliseconds = kNoLimit;
     }
-    return aBatch;
+    return {};
+}
+
+/// Gives the points of one mode and batch the same poses, as many as the slowest can do in `most` ms.
+void takeSamePoses(std::span<Point> group, double most, const CompareRun& run) {
+    std::vector<double> milliseconds;
+    std::ranges::transform(group, std::back_inserter(milliseconds), &Point::batchMilliseconds);
+    const std::size_t batch = group.front().series.batch;
+    const SampleSize size = sampleSize(milliseconds, most, group.front().work.poses.size() / batch);
+    const std::size_t pairs = size.batches * batch;
+    for (std::size_t i = 0; i < group.size(); ++i) {
+        Point& point = group[i];
+        point.series.pairs = static_cast<std::uint32_t>(pairs);
+        point.work.poses = point.work.poses.first(pairs);
+        for (std::size_t pass = 0; size.passes[i] > 1 && pass < size.passes[i]; ++pass) {
+            point.again.insert(point.again.end(), point.work.poses.begin(), point.work.poses.end());
+        }
+        point.work.poses = point.again.empty() ? point.work.poses : point.again;
+    }
+    const Series& series = group.front().series;
+    if (pairs < run.scene.poses.size() && series.sweep == Sweep::Batch) {
+        run.result.notes.push_back(
+            (series.mode == Mode::Sync ? "waited for: " : "in flight, batches of " + grouped(batch) + ": ") +
+            "the times of all methods are of the same " + grouped(pairs) + " of the " +
+            grouped(run.scene.poses.size()) + " poses; a longer --time-limit takes more");
+    }
 }
 
 /// Each point has its share of the time.
 Result<void> measure(const CompareRun& run, std::vector<Point>& points) {
     const double limit = run.settings.timeLimit * 1000;
     const double share = limit / static_cast<double>(points.size());
+    for (Point& point : points) {
+        VOXTACT_TRY(warmUp(point, limit * kLongestSample, run.result));
+    }
+    run.step();
+    const auto wayOf = [](const Point& point) { return std::pair(point.series.mode, point.series.batch); };
+    for (auto first = points.begin(); first != points.end();) {
+        const auto last = std::ranges::find_if(first, points.end(),
+                                               [&](const Point& point) { return wayOf(point) != wayOf(*first); });
+        takeSamePoses({first, last}, share / kSamplesInShare, run);
+        first = last;
+    }
     std::vector<Timed> things;
     for (Point& point : points) {
-        const auto take = [&, share, limit](const Turn& turn) {
-            return turn.round == 0 ? warmUp(point, share, limit * kLongestSample, run.result) : takeSample(point);
-        };
-        things.push_back({.take = take, .limit = share});
+        if (point.batchMilliseconds != kNoLimit) {
+            things.push_back({.take = [&point](const Turn&) { return takeSample(point); }, .limit = share});
+        }
     }
-    VOXTACT_TRY(takeRounds(things, {.repeats = run.settings.repeats, .warmUp = true, .step = run.step}));
+    VOXTACT_TRY(takeRounds(things, {.repeats = run.settings.repeats, .step = run.step}));
     return {};
 }
 
@@ -143,7 +176,7 @@ std::vector<Mat4> cycled(std::span<const Mat4> poses, std::size_t count) {
     return out;
 }
 
-/// Pairs that wait for each other do not care how many there are: measured once, over all poses.
+/// Pairs that wait for each other do not care how many there are: measured once.
 Series scaled(Series series, std::uint32_t batch) {
     series.batch = batch;
     for (std::vector<double>* const times : {&series.wall, &series.gpu}) {
@@ -322,6 +355,20 @@ Result<void> timeSwept(const CompareRun& run, Sweep sweep, const std::vector<Swe
 }
 
 } // namespace
+
+SampleSize sampleSize(std::span<const double> milliseconds, double most, std::size_t all) {
+    const auto fitting = [&](double batch) { // a coarse clock may say 0
+        return std::max<std::size_t>(1, static_cast<std::size_t>(std::min(most / batch, static_cast<double>(all))));
+    };
+    SampleSize size{.batches = all};
+    for (const double batch : milliseconds) {
+        size.batches = batch == kNoLimit ? size.batches : std::min(size.batches, fitting(batch));
+    }
+    for (const double batch : milliseconds) {
+        size.passes.push_back(batch == kNoLimit ? 0 : fitting(batch) / size.batches);
+    }
+    return size;
+}
 
 std::uint64_t stepsOf(Sweep sweep, std::uint32_t repeats) noexcept {
     // A volume takes longer to make than to be measured on.
