@@ -135,14 +135,14 @@ Result<void> measure(const CompareRun& run, std::vector<Point>& points) {
     return {};
 }
 
-/// A query says nothing of how many: the fragments are those of its neighbours.
+/// A yes or no says nothing of how many: the fragments are those of a neighbour on the same poses.
 void shareFragments(std::vector<Point>& points) {
     for (Point& point : points) {
         Series& own = point.series;
         const auto found = std::ranges::find_if(points, [&own](const Point& other) {
             const Series& series = other.series;
-            return series.fragments && series.triangles == own.triangles && series.width == own.width &&
-                   series.voxels == own.voxels;
+            return series.fragments && series.mode == own.mode && series.batch == own.batch &&
+                   series.triangles == own.triangles && series.width == own.width && series.voxels == own.voxels;
         });
         if (!own.fragments && found != points.end()) {
             own.fragments = found->series.fragments;
