@@ -116,15 +116,19 @@ std::vector<std::string> besideFcl(const BenchResult& result) {
     return out;
 }
 
-/// "compute, polled: p50 80.1 us, p99 120 us", "cpu on 2 threads: ..."
+/// "compute, polled", "cpu on 2 threads"
+std::string engineText(const EngineFacts& engine) {
+    return engine.name + (engine.threads > 0
+                              ? " on " + std::to_string(engine.threads) + (engine.threads == 1 ? " thread" : " threads")
+                              : ", " + engine.awaited);
+}
+
+/// "compute, polled: p50 80.1 us, p99 120 us (500 ticks, 258 of them touch)"
 std::string ticksText(const BenchRow& row) {
-    const EngineFacts& engine = row.engine;
     const std::optional<double> p99 = quantile(row.wall, 0.99, kForP99);
-    return engine.name +
-           (engine.threads > 0
-                ? " on " + std::to_string(engine.threads) + (engine.threads == 1 ? " thread" : " threads")
-                : ", " + engine.awaited) +
-           ": p50 " + shortNumber(*quantile(row.wall, 0.5)) + (p99 ? " us, p99 " + shortNumber(*p99) + " us" : " us");
+    return engineText(row.engine) + ": p50 " + shortNumber(*quantile(row.wall, 0.5)) +
+           (p99 ? " us, p99 " + shortNumber(*p99) + " us" : " us") + " (" + grouped(row.wall.size()) + " ticks, " +
+           grouped(row.touching) + " of them touch)";
 }
 
 /// Whether it answers sooner: by p99, or by p50 where one of the two has too few ticks for that.
@@ -168,6 +172,27 @@ std::vector<std::string> soonestTicks(const BenchResult& result) {
     return out;
 }
 
+/// What must be known when reading the times of ticks.
+void noteTicks(const BenchSettings& settings, const BenchResult& result, std::vector<std::string>& notes) {
+    const auto isCut = [&](const BenchRow& of) { return of.wall.size() < settings.number; };
+    if (std::ranges::any_of(result.rows, isCut)) {
+        notes.push_back("rows of fewer than " + std::to_string(settings.number) +
+                        " ticks are of the first ones: the engine's share of --time-limit was used up");
+    }
+    std::vector<std::string> blind;
+    for (const BenchRow& row : result.rows) {
+        if (!row.engine.question.empty() && row.touching == 0) {
+            blind.push_back(engineText(row.engine) + " (" + row.engine.projection + " " + row.engine.question + ")");
+        }
+    }
+    if (!blind.empty()) {
+        notes.push_back(
+            "no tick of these touches, as a stroke begins outside: their times are of poses without contact, "
+            "and their answers were all no: " +
+            joined(blind, ", "));
+    }
+}
+
 } // namespace
 
 void writeBench(std::ostream& out, io::Format format, const BenchSettings& settings, const BenchResult& result) {
@@ -178,10 +203,8 @@ void writeBench(std::ostream& out, io::Format format, const BenchSettings& setti
     Output output{.machine = result.machine, .members = {}, .about = "volume " + result.volume + how.about};
     output.notes = result.notes;
     output.sentences = ticks ? soonestTicks(result) : besideFcl(result);
-    const auto isCut = [&](const BenchRow& of) { return of.wall.size() < settings.number; };
-    if (ticks && std::ranges::any_of(result.rows, isCut)) {
-        output.notes.push_back("rows of fewer than " + std::to_string(settings.number) +
-                               " ticks are of the first ones: the engine's share of --time-limit was used up");
+    if (ticks) {
+        noteTicks(settings, result, output.notes);
     }
     const std::vector<io::NamedCells> rows = cellsOf(result.rows, row);
     output.table = format == io::Format::Text ? tableWithout(how.notInText, rows) : tableOf(rows);
