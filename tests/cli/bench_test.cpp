@@ -47,6 +47,8 @@ class BenchTest : public CliDeviceTest {
 TEST_F(BenchTest, EveryCertifiedEngineMissesNothing) {
     const Json result = json(opaque(bench("24", "2")));
     EXPECT_EQ(result["scene"]["volume"], "builtin:head:32");
+    EXPECT_EQ(result["scene"]["opacity"], "40:0,80:1");
+    EXPECT_EQ(result["scene"]["tf_domain"], Json({0.0, 255.0}));
     for (const char* fact : {"device", "driver", "cpu", "cpu_threads"}) {
         EXPECT_TRUE(result["machine"].contains(fact)) << fact;
     }
@@ -58,6 +60,7 @@ TEST_F(BenchTest, EveryCertifiedEngineMissesNothing) {
         EXPECT_EQ(row["pairs"], 24);
         EXPECT_EQ(row["samples"], 2);
         EXPECT_GT(row["contacts"], 0);
+        EXPECT_EQ(row["contacts"].get<int>() + row["no_contacts"].get<int>() + row["possible"].get<int>(), 24) << row;
         EXPECT_GT(row["pairs_per_s_min"], 0);
         EXPECT_LE(row["pairs_per_s_min"], row["pairs_per_s"]);
         EXPECT_LE(row["pairs_per_s"], row["pairs_per_s_max"]);
@@ -100,12 +103,13 @@ TEST_F(BenchTest, CsvIsTheSameSceneForTheSameSeed) {
     EXPECT_EQ(lines.front(),
               "mesh,triangles,poses,engine,projection,question,threads,pairs,contacts,missed_percent,false_percent,"
               "samples,pairs_per_s,pairs_per_s_min,pairs_per_s_max,pairs_per_cpu_s,pairs_per_cpu_s_min,"
-              "pairs_per_cpu_s_max,wall_ratio,wall_ratio_min,wall_ratio_max,cpu_ratio,cpu_ratio_min,cpu_ratio_max");
+              "pairs_per_cpu_s_max,wall_ratio,wall_ratio_min,wall_ratio_max,cpu_ratio,cpu_ratio_min,cpu_ratio_max,"
+              "no_contacts,possible");
     ASSERT_EQ(lines.size(), again.size());
     for (std::size_t i = 1; i < lines.size() && !lines[i].starts_with("#"); ++i) {
         const auto one = fieldsOf(lines[i]);
         const auto other = fieldsOf(again[i]);
-        ASSERT_EQ(one.size(), 24U);
+        ASSERT_EQ(one.size(), 26U);
         EXPECT_TRUE(std::equal(one.begin(), one.begin() + 11, other.begin())) << lines[i] << "\n" << again[i];
     }
 }
@@ -186,6 +190,14 @@ TEST_F(BenchTest, BatchesOfEverySizeAndVerified) {
     EXPECT_LT(cut["rows"].size(), 6 * sizes.size()) << "all sizes, 100000 poses in 10 ms";
     EXPECT_THAT(result["notes"].dump(), Not(HasSubstr("are left out")));
     EXPECT_THAT(cut["notes"].dump(), HasSubstr(" are left out, as they do not fit in --time-limit"));
+}
+
+TEST_F(BenchTest, WhereNothingTouchesANoteSaysSo) {
+    for (const char* mode : {"--batches", "--outputs"}) {
+        const std::string none = output({"bench", mode, "--volume", "builtin:head:16", "--mesh", "builtin:scalpel:100",
+                                         "--number", "4", "--repetitions", "1", "--opacity", "0:0,255:0"});
+        EXPECT_THAT(none, HasSubstr("# nothing touches on any pose: that all agree says little")) << mode;
+    }
 }
 
 TEST_F(BenchTest, WhatCannotBeDoneIsOneLine) {

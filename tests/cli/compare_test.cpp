@@ -100,7 +100,7 @@ TEST_F(CompareTest, WhereNothingTouchesNothingIsClaimed) {
     EXPECT_EQ(oracle["checked"], false);
     EXPECT_TRUE(oracle["agrees"].is_null());
     EXPECT_EQ(oracle["why_not"], "nothing touches on any pose");
-    EXPECT_THAT(result["notes"].dump(), HasSubstr("nothing touches on any pose: that the methods agree says little"));
+    EXPECT_THAT(result["notes"].dump(), HasSubstr("nothing touches on any pose: that all agree says little"));
     const Json alone =
         Json::parse(output({"compare", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:300", "--number", "2",
                             "--oracle", "0", "--methods", "cpu", "--sweep", "none", "--format", "json"}));
@@ -134,10 +134,9 @@ TEST_F(CompareTest, EverySeriesSaysWhatItWasMeasuredOn) {
 
 /// However little time there is, what stands side by side is of the same pairs.
 TEST_F(CompareTest, MethodsAreTimedOnTheSamePoses) {
-    const Json result =
-        Json::parse(output({"compare", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:500", "--number",
-                            "128", "--oracle", "0", "--size", "64x64", "--time-limit", "1", "--repetitions", "2",
-                            "--format", "json"}));
+    const Json result = Json::parse(
+        output({"compare", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:500", "--number", "128",
+                "--oracle", "0", "--size", "64x64", "--time-limit", "1", "--repetitions", "2", "--format", "json"}));
     std::map<std::string, Json> first;
     for (const Json& series : result["series"]) {
         const std::string way = series["mode"].get<std::string>() + " " + series["batch"].dump();

@@ -58,6 +58,16 @@ TEST_F(LocalizeCommandTest, CsvHasARowAWay) {
     EXPECT_THAT(output(localize({"--only-pose", "3", "--format", "text", "--validate"})), HasSubstr("leaf-bricks"));
 }
 
+TEST_F(LocalizeCommandTest, AShareOfNothingIsNone) {
+    const Json result =
+        Json::parse(output(localize({"--only-pose", "3", "--format", "json", "--opacity", "300:0,400:1"})));
+    EXPECT_TRUE(result["ways"][0]["missed_percent"].is_null());
+    EXPECT_EQ(result["ways"][0]["missed"], 0);
+    EXPECT_EQ(result["scene"]["opacity"], "300:0,400:1");
+    EXPECT_EQ(result["summary"][1], "the camera shows 0 touching triangles, 0 certainly touch");
+    EXPECT_THAT(result["notes"].dump(), HasSubstr("nothing touches on any pose"));
+}
+
 TEST_F(LocalizeCommandTest, WhatHasNothingToDoWithItIsRefused) {
     EXPECT_THAT(refused(2, localize({"--sweep", "batch"})), AllOf(HasSubstr("--localize"), HasSubstr("--sweep")));
     EXPECT_THAT(refused(2, localize({"--report", path("report.html")})), HasSubstr("--report"));

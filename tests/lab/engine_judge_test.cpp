@@ -4,6 +4,9 @@
 #include "lab/compare/localize.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <sstream>
 
 namespace voxtact::test {
 namespace {
@@ -83,6 +86,30 @@ TEST(EngineJudgeTest, CertifiedEnginesMustAgree) {
               "");
     EXPECT_NE(judgeEngine(certified, std::vector<PairAnswer>{answer(true, false, 1), answer(false, false, 0)}, yesNo),
               "");
+}
+
+TEST(EngineOutputTest, AShareHasItsWholeOrIsNone) {
+    lab::BenchResult result;
+    result.rows.push_back({.mesh = "m",
+                           .poses = "onset",
+                           .engine = {.name = "fcl-float", .projection = "octree", .question = "yes/no"},
+                           .pairs = 4,
+                           .contacts = 4,
+                           .missed = 1,
+                           .wallRate = {1},
+                           .cpuRate = {1},
+                           .wallRatio = {1},
+                           .cpuRatio = {1}});
+    std::ostringstream out;
+    writeBench(out, io::Format::Json, {.mode = lab::BenchMode::Certified}, result);
+    const auto json = nlohmann::json::parse(out.str());
+    EXPECT_EQ(json["rows"][0]["missed_percent"], 25);
+    EXPECT_TRUE(json["rows"][0]["false_percent"].is_null()) << "there are no poses that it could be wrong on";
+    EXPECT_EQ(json["rows"][0]["no_contacts"], 0);
+    EXPECT_EQ(json["rows"][0]["possible"], 0);
+    const std::string sentence = json["summary"][0];
+    EXPECT_NE(sentence.find("; that misses 25 % of the 4 contacts"), std::string::npos) << sentence;
+    EXPECT_EQ(sentence.find("certainly do not touch"), std::string::npos) << sentence;
 }
 
 } // namespace

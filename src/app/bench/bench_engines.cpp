@@ -52,6 +52,9 @@ Result<void> measure(const BenchOptions& options, const CLI::App& parser, const 
     VOXTACT_TRY(volume);
     result.voxels = volume->data.grid.size;
     result.threshold = volume->threshold;
+    result.opacity = opacityText(volume->points);
+    result.domain = volume->domain;
+    result.tableSize = volume->tableSize;
     const Provenance provenance = provenanceOf(parser);
     result.machine =
         session == nullptr ? describeHost(provenance) : describeMachine(*session, volume->data.type, provenance);

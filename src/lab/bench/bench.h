@@ -64,6 +64,9 @@ struct BenchResult {
     Machine machine;
     std::string volume;
     double threshold = 0;
+    std::string opacity; ///< the control points, as --opacity takes them
+    ValueRange domain;   ///< of the table
+    std::uint32_t tableSize = 0;
     std::array<std::uint32_t, 3> voxels{};
     std::vector<std::string> notes;
     std::string disagreement; ///< of engines that must agree; empty: there is none

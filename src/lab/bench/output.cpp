@@ -14,8 +14,8 @@ namespace {
 constexpr std::size_t kForP99 = 100;
 constexpr std::size_t kForP999 = 1000;
 
-double percent(std::uint64_t part, std::uint64_t whole) {
-    return whole == 0 ? 0 : rounded(100.0 * static_cast<double>(part) / static_cast<double>(whole));
+std::uint64_t possibleOf(const BenchRow& row) {
+    return row.pairs - row.contacts - row.untouched;
 }
 
 /// µs of ms.
@@ -26,13 +26,15 @@ std::optional<double> quantile(const std::vector<double>& samples, double part, 
 void addRateColumns(const BenchRow& row, Row& out) {
     out.add("pairs", row.pairs)
         .add("contacts", row.contacts)
-        .add("missed_percent", percent(row.missed, row.contacts))
-        .add("false_percent", percent(row.wrong, row.untouched))
+        .add("missed_percent", percentOf(row.missed, row.contacts))
+        .add("false_percent", percentOf(row.wrong, row.untouched))
         .add("samples", row.wallRate.size())
         .add("pairs_per_s", row.wallRate, {"", "_min", "_max"})
         .add("pairs_per_cpu_s", row.cpuRate, {"", "_min", "_max"})
         .add("wall_ratio", row.wallRatio, {"", "_min", "_max"})
-        .add("cpu_ratio", row.cpuRatio, {"", "_min", "_max"});
+        .add("cpu_ratio", row.cpuRatio, {"", "_min", "_max"})
+        .add("no_contacts", row.untouched)
+        .add("possible", possibleOf(row));
 }
 
 void addTickColumns(const BenchRow& row, Row& out) {
@@ -99,6 +101,12 @@ std::string shortText(double value) {
     return text.str();
 }
 
+/// "12.5 % of the 8 contacts"; nothing where there are none.
+std::string shareText(const char* begin, std::uint64_t part, std::uint64_t whole, const char* what) {
+    const std::optional<double> percent = percentOf(part, whole);
+    return percent ? begin + shortText(*percent) + " % of the " + grouped(whole) + what : std::string();
+}
+
 /// How the first engine of each scene, yes or no on one thread, does beside FCL.
 std::vector<std::string> besideFcl(const BenchResult& result) {
     std::vector<std::string> out;
@@ -107,11 +115,11 @@ std::vector<std::string> besideFcl(const BenchResult& result) {
             continue;
         }
         const Spread spread = spreadOf(row.cpuRatio);
-        out.push_back(row.mesh + ", poses " + row.poses + ": cpu yes/no answers for " + shortText(1 / spread.median) +
-                      " (" + shortText(1 / spread.max) + " to " + shortText(1 / spread.min) + ") times the pairs of " +
-                      row.engine.name + " in the same CPU time; that misses " +
-                      shortText(percent(row.missed, row.contacts)) + " % of the contacts, and calls " +
-                      shortText(percent(row.wrong, row.untouched)) + " % of what does not touch one");
+        out.push_back(
+            row.mesh + ", poses " + row.poses + ": cpu yes/no answers for " + shortText(1 / spread.median) + " (" +
+            shortText(1 / spread.max) + " to " + shortText(1 / spread.min) + ") times the pairs of " + row.engine.name +
+            " in the same CPU time" + shareText("; that misses ", row.missed, row.contacts, " contacts") +
+            shareText("; that calls contacts ", row.wrong, row.untouched, " poses that certainly do not touch"));
     }
     return out;
 }
@@ -172,6 +180,10 @@ std::vector<std::string> soonestTicks(const BenchResult& result) {
     return out;
 }
 
+bool touches(const BenchRow& row) {
+    return row.touching > 0 || row.contacts > 0;
+}
+
 /// What must be known when reading the times of ticks.
 void noteTicks(const BenchSettings& settings, const BenchResult& result, std::vector<std::string>& notes) {
     const auto isCut = [&](const BenchRow& of) { return of.wall.size() < settings.number; };
@@ -205,12 +217,17 @@ void writeBench(std::ostream& out, io::Format format, const BenchSettings& setti
     output.sentences = ticks ? soonestTicks(result) : besideFcl(result);
     if (ticks) {
         noteTicks(settings, result, output.notes);
+    } else if (!result.rows.empty() && std::ranges::none_of(result.rows, touches)) {
+        output.notes.emplace_back(kNothingTouches);
     }
     const std::vector<io::NamedCells> rows = cellsOf(result.rows, row);
     output.table = format == io::Format::Text ? tableWithout(how.notInText, rows) : tableOf(rows);
     output.members["scene"] = {{"volume", result.volume},
                                {"voxels", result.voxels},
                                {"threshold", result.threshold},
+                               {"opacity", result.opacity},
+                               {"tf_domain", {result.domain.lo, result.domain.hi}},
+                               {"tf_size", result.tableSize},
                                {ticks ? "ticks" : "poses", settings.number},
                                {"seed", settings.seed}};
     if (mode != BenchMode::Batches) {

@@ -149,7 +149,7 @@ Result<void> checkCounts(const CompareRun& run) {
     run.result.counts = std::move(*counts);
     run.result.verdicts = judgeCounts(run.result.counts, run.scene.poseNumbers);
     if (touchingPoses(run.result.counts).empty()) {
-        run.result.notes.emplace_back("nothing touches on any pose: that the methods agree says little");
+        run.result.notes.emplace_back(kNothingTouches);
     }
     run.step();
     return {};

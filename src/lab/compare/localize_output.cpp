@@ -9,12 +9,6 @@ namespace voxtact::lab {
 
 namespace {
 
-/// Of the certified triangles.
-double percentMissed(const LocalizeWay& way, const LocalizeResult& result) {
-    const std::uint64_t certified = result.ways.back().triangles;
-    return certified == 0 ? 0 : 100.0 * static_cast<double>(way.missed) / static_cast<double>(certified);
-}
-
 /// JSON has the cells too, with all their names.
 io::Table waysTable(const LocalizeResult& result) {
     return tableOf(cellsOf(result.ways, [&](const LocalizeWay& way) {
@@ -24,7 +18,8 @@ io::Table waysTable(const LocalizeResult& result) {
             .add("poses", ifRun(way.found.size()))
             .add("triangles", ifRun(way.triangles))
             .add("missed", ifRun(way.missed))
-            .add("missed_percent", ifRun(percentMissed(way, result)))
+            .add("missed_percent",
+                 way.unchecked.empty() ? percentOf(way.missed, result.ways.back().triangles) : std::nullopt)
             .add("false", ifRun(way.wrong))
             .add("queries", way.queries)
             .add("boxes", way.boxes)
@@ -42,8 +37,10 @@ std::vector<std::string> sentences(const LocalizeResult& result) {
                                                    : ": the same triangles with the same counts on every pose"));
     TextStream missed;
     missed << "the camera shows " << grouped(result.ways.front().triangles) << " touching triangles, "
-           << grouped(result.ways.back().triangles) << " certainly touch: " << std::fixed << std::setprecision(1)
-           << percentMissed(result.ways.front(), result) << " % are missed";
+           << grouped(result.ways.back().triangles) << " certainly touch";
+    if (const auto percent = percentOf(result.ways.front().missed, result.ways.back().triangles)) {
+        missed << ": " << std::fixed << std::setprecision(1) << *percent << " % are missed";
+    }
     out.push_back(missed.str());
     for (const WrongTriangle& wrong : result.wrong) {
         out.push_back("found and not certified: pose " + std::to_string(wrong.pose) + ", triangle " +
@@ -61,6 +58,9 @@ void writeLocalize(std::ostream& out, io::Format format, const Scene& scene, con
                   .table = waysTable(result),
                   .sentences = sentences(result),
                   .notes = result.notes};
+    if (result.ways.back().triangles == 0) {
+        output.notes.emplace_back(kNothingTouches);
+    }
     Json& json = output.members;
     json["scene"] = sceneJson(scene);
     json["summary"] = output.sentences;

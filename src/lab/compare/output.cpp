@@ -111,7 +111,10 @@ Json sceneJson(const Scene& scene) {
             {"poses_from", scene.posesFrom},
             {"width", scene.view.width},
             {"height", scene.view.height},
-            {"threshold", scene.volume->threshold}};
+            {"threshold", scene.volume->threshold},
+            {"opacity", opacityText(scene.volume->points)},
+            {"tf_domain", {scene.volume->domain.lo, scene.volume->domain.hi}},
+            {"tf_size", scene.volume->tableSize}};
 }
 
 Output compareOutput(const Scene& scene, const CompareResult& result) {

@@ -2,6 +2,7 @@
 #include "lab/engines/scene.h"
 
 #include "core/base/refuse.h"
+#include "core/base/text.h"
 #include "core/base/try.h"
 
 #include <algorithm>
@@ -38,6 +39,14 @@ std::vector<std::uint32_t> spreadEvenly(std::uint32_t count, std::uint32_t total
         numbers.push_back(static_cast<std::uint32_t>(std::uint64_t{i} * total / taken));
     }
     return numbers;
+}
+
+std::string opacityText(std::span<const ControlPoint> points) {
+    std::string text;
+    for (const ControlPoint& point : points) {
+        text += (text.empty() ? "" : ",") + number(point.value) + ":" + number(point.opacity);
+    }
+    return text;
 }
 
 Scene Scene::withPoses(std::uint32_t count) const {

@@ -84,6 +84,9 @@ class DeviceStay {
 /// `count` numbers below `total`, spread evenly; all of them when there are no more.
 [[nodiscard]] std::vector<std::uint32_t> spreadEvenly(std::uint32_t count, std::uint32_t total);
 
+/// As --opacity takes them: "40:0,80:1".
+[[nodiscard]] std::string opacityText(std::span<const ControlPoint> points);
+
 /// Makes what the host engine needs, once.
 [[nodiscard]] Result<void> makeHost(VolumePart& volume);
 /// Uploads what the methods of the device need, labels too where there are any.

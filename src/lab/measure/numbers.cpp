@@ -53,6 +53,11 @@ std::optional<MedianInterval> medianInterval(std::vector<double> samples, double
     return interval;
 }
 
+std::optional<double> percentOf(std::uint64_t part, std::uint64_t whole) {
+    return whole == 0 ? std::nullopt
+                      : std::optional(rounded(100.0 * static_cast<double>(part) / static_cast<double>(whole)));
+}
+
 double rounded(double value) {
     if (value == 0 || !std::isfinite(value)) {
         return 0;

@@ -43,6 +43,12 @@ inline void keep(const std::optional<double>& time, std::vector<double>& samples
     }
 }
 
+/// Of a whole, rounded(); nothing of 0, whose share is none.
+[[nodiscard]] std::optional<double> percentOf(std::uint64_t part, std::uint64_t whole);
+
+/// Said where it makes agreement a small thing.
+inline constexpr const char* kNothingTouches = "nothing touches on any pose: that all agree says little";
+
 /// Six significant digits: more would be noise. 0 for what is not finite.
 [[nodiscard]] double rounded(double value);
 /// Three significant digits, without an exponent.

@@ -2,7 +2,6 @@
 #include "core/base/refuse.h"
 #include "lab/paper/parts.h"
 
-#include "core/base/text.h"
 #include "core/base/try.h"
 #include "lab/engines/opaque_cells.h"
 #include "lab/measure/numbers.h"
@@ -176,14 +175,6 @@ Result<View> cameraOf(const PaperSettings& settings, const Grid& grid, const Mes
     }
     return View{viewFrom({}, grid, box, settings.size.width, settings.size.height), settings.size.width,
                 settings.size.height};
-}
-
-std::string opacityText(const std::vector<ControlPoint>& points) {
-    std::vector<std::string> texts;
-    for (const ControlPoint& point : points) {
-        texts.push_back(number(point.value) + ":" + number(point.opacity));
-    }
-    return joined(texts, ",");
 }
 
 Result<PaperInput> makeInput(const PaperSettings& settings, std::string name, const LoadedVolume& volume,
