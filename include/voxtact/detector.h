@@ -275,7 +275,7 @@ class Results {
     /// where they are not counted().
     [[nodiscard]] VOXTACT_API Result<CertifiedCounters> counters();
     /// Device time between the start and the end of cmdDetect()'s commands, when `timestamps` was asked for and the
-    /// submission is complete. NotReady otherwise.
+    /// submission is complete; 0 where the clock went backwards. NotReady otherwise.
     [[nodiscard]] VOXTACT_API Result<double> gpuMilliseconds();
 
     [[nodiscard]] ResultsImpl& impl() const noexcept { return *impl_; }

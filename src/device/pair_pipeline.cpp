@@ -147,7 +147,11 @@ Result<void> PairPipeline::State::land(Flight& flight, const Events& events) {
     if (desc.timestamps) {
         const Result<double> gpu = flight.results->gpuMilliseconds();
         VOXTACT_TRY(gpu);
-        timed.gpuMilliseconds = *gpu / pairs;
+        if (*gpu > 0) {
+            timed.gpuMilliseconds = *gpu / pairs;
+        } else {
+            device.missTimestamp();
+        }
     }
     for (const PairResult& pair : *read) {
         timed.answer = unpack(pair);

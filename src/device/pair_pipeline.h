@@ -18,7 +18,7 @@ struct TimedAnswer {
     std::uint32_t item = 0; ///< number in the span given to run()
     std::uint32_t pose = 0; ///< number in that item's poses
     PairAnswer answer;
-    std::optional<double> gpuMilliseconds; ///< nothing where the queue has no timestamps
+    std::optional<double> gpuMilliseconds; ///< nothing where the queue has no timestamps, or they are no time
     double wallMilliseconds = 0;           ///< from the start of recording to the results in host memory
 };
 

@@ -3,6 +3,7 @@
 
 #include "core/base/try.h"
 #include "device/created.h"
+#include "gpu/timestamps.h"
 
 #include <array>
 #include <limits>
@@ -15,7 +16,7 @@ namespace {
 /// How the counter of a queue is read. It may have fewer than 64 bits, and wraps.
 struct QueueClock {
     double milliseconds = 0; ///< of a tick
-    std::uint64_t mask = 0;
+    std::uint32_t bits = 0;
 };
 
 QueueClock clockOf(const Session& session) {
@@ -29,9 +30,8 @@ QueueClock clockOf(const Session& session) {
     families(physical, &count, nullptr);
     std::vector<VkQueueFamilyProperties> all(count);
     families(physical, &count, all.data());
-    const std::uint32_t bits = all[session.device.queueAccess().family].timestampValidBits;
     return {static_cast<double>(properties.limits.timestampPeriod) * 1e-6,
-            bits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1};
+            all[session.device.queueAccess().family].timestampValidBits};
 }
 
 } // namespace
@@ -218,7 +218,12 @@ Result<std::optional<double>> TimedCommands::between(std::uint32_t from, std::ui
             return vulkanError(result, "reading timestamps failed");
         }
     }
-    return std::optional(static_cast<double>((ticks[1] - ticks[0]) & state_->clock.mask) * state_->clock.milliseconds);
+    const std::optional<std::uint64_t> passed = ticksBetween(ticks[0], ticks[1], state_->clock.bits);
+    if (!passed) {
+        state_->device.missTimestamp();
+        return std::optional<double>();
+    }
+    return std::optional(static_cast<double>(*passed) * state_->clock.milliseconds);
 }
 
 } // namespace voxtact::device

@@ -8,6 +8,7 @@
 #include "device/vulkan_instance.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cctype>
 #include <charconv>
 #include <cstring>
@@ -134,6 +135,7 @@ struct VulkanDevice::State {
     std::mutex queueMutex;
     std::uint32_t family = 0;
     bool timestamps = false;
+    std::atomic<bool> missedTimestamps = false;
     ContextDesc desc;
 };
 
@@ -247,7 +249,9 @@ Result<VulkanDevice> VulkanDevice::create(const VulkanInstance& instance, const 
         return Error{ErrorCode::Unsupported, 0,
                      "the device '" + physical.name + "' has no queue that can draw; choose another with --device"};
     }
-    state->timestamps = family->timestampValidBits > 0;
+    VkPhysicalDeviceProperties properties{};
+    functions.getPhysicalDeviceProperties(physical.handle, &properties);
+    state->timestamps = family->timestampValidBits > 0 && properties.limits.timestampPeriod > 0;
     if (options.adjustFeatures) {
         options.adjustFeatures(state->features);
     }
@@ -324,6 +328,14 @@ std::unique_lock<std::mutex> VulkanDevice::lockQueue() const {
 
 bool VulkanDevice::hasTimestamps() const noexcept {
     return state_->timestamps;
+}
+
+void VulkanDevice::missTimestamp() const noexcept {
+    state_->missedTimestamps = true;
+}
+
+bool VulkanDevice::missedTimestamps() const noexcept {
+    return state_->missedTimestamps;
 }
 
 } // namespace voxtact::device

@@ -114,7 +114,11 @@ class VulkanDevice {
     [[nodiscard]] QueueAccess queueAccess() const noexcept;
     /// Threads share the queue: held by whoever submits to it, shows an image, or waits for all that is on the device.
     [[nodiscard]] std::unique_lock<std::mutex> lockQueue() const;
+    /// Of which something can be told: with a period.
     [[nodiscard]] bool hasTimestamps() const noexcept;
+    /// To be remembered: timestamps went backwards, or did not move, and were no time.
+    void missTimestamp() const noexcept;
+    [[nodiscard]] bool missedTimestamps() const noexcept;
 
     struct State;
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How things are timed: in which order, how often, and what ends it.
+#include "gpu/timestamps.h"
 #include "lab/compare/compare.h"
 #include "lab/measure/rounds.h"
 
@@ -37,6 +38,15 @@ class RoundsTest : public testing::Test {
 
     std::vector<std::string> taken_;
 };
+
+TEST(TimestampsTest, MayWrapAndNotGoBackwards) {
+    EXPECT_EQ(ticksBetween(5, 12, 64), 7U);
+    EXPECT_EQ(ticksBetween(5, 5, 64), 0U);
+    EXPECT_EQ(ticksBetween(12, 5, 64), std::nullopt);
+    const std::uint64_t last = (std::uint64_t{1} << 36U) - 1;
+    EXPECT_EQ(ticksBetween(last - 2, 4, 36), 7U) << "it has wrapped";
+    EXPECT_EQ(ticksBetween(4, last - 2, 36), std::nullopt);
+}
 
 TEST(SampleSizeTest, IsWhatTheSlowestCanDo) {
     // 10 batches of 5 ms fit in 50 ms; 50 of 1 ms are 5 times those; one that is not timed does not count.

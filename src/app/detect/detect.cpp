@@ -34,7 +34,8 @@ constexpr const char* kDetectFooter =
                                the row's submission divided by its pairs. Submissions overlap: the last line
                                '# pairs= wall_ms= pairs_per_s=' has the time of all. Reading files, uploads and making
                                pipelines are not included; there is no warm-up. With --batch 1 each pair is submitted
-                               and waited for alone. With --count cpu gpu_ms is 0.
+                               and waited for alone. With --count cpu gpu_ms is 0; it is empty where the device has
+                               no timestamps.
 With --stats a line '# clusters= clusters_kept= ...' says what the passes of conservative did on the device; the manual's
 page "The certified engine on a device" has what each number is.
 Contacts (--contacts): pose,triangle,x,y,z,nx,ny,nz,depth,value,opacity,label, in world mm, LPS; as points in PLY, in
@@ -137,7 +138,13 @@ Result<void> withEngine(const DetectOptions& options, const DetectInputs& inputs
                 notes.push_back(choice->note);
             }
             if (!rowOf(choice->method).host) {
-                return withDeviceEngine(options, inputs, *session, choice->method, answer);
+                Result<void> answered = withDeviceEngine(options, inputs, *session, choice->method, answer);
+                const device::VulkanDevice& device = session->device;
+                if (options.timing && (!device.hasTimestamps() || device.missedTimestamps())) {
+                    notes.emplace_back("--timing: gpu_ms is empty where the device has no timestamps, or they went "
+                                       "backwards or did not move");
+                }
+                return answered;
             }
         } else if (options.method.count || !limits.host) {
             return session.error();

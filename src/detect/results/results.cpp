@@ -9,6 +9,7 @@
 #include "detect/results/unpack.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
+#include "gpu/timestamps.h"
 #include "shared.h"
 
 #include <algorithm>
@@ -319,10 +320,7 @@ Result<double> Results::gpuMilliseconds() {
         if (result != VK_SUCCESS) {
             return r.context.failure(result, "reading timestamps");
         }
-        // The counter has fewer than 64 bits on some queues and wraps.
-        const std::uint64_t mask =
-            r.timestampBits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << r.timestampBits) - 1;
-        const auto elapsed = static_cast<double>((ticks[1] - ticks[0]) & mask);
+        const auto elapsed = static_cast<double>(ticksBetween(ticks[0], ticks[1], r.timestampBits).value_or(0));
         return elapsed * static_cast<double>(r.context.limits.timestampPeriod) * 1e-6;
     });
 }

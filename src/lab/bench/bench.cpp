@@ -109,6 +109,9 @@ Result<void> bench(const BenchSettings& settings, const device::Session* session
                               .step = steps.step,
                               .result = result}));
     }
+    if (session != nullptr) {
+        noteMissedTimes(*session, result.notes);
+    }
     return {};
 }
 

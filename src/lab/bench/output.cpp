@@ -51,12 +51,13 @@ void addTickColumns(const BenchRow& row, Row& out) {
 }
 
 void addBatchColumns(const BenchRow& row, Row& out) {
+    const double median = medianOf(row.wall);
     out.add("batch", row.pairs)
         .add("samples", row.wall.size())
         .add("rounding", row.rounding)
         .add("wall_ms", row.wall, {"_median", "_min", "_max"})
         .add("gpu_ms", row.gpu, {"_median"})
-        .add("pairs_per_s", 1000 * static_cast<double>(row.pairs) / std::max(medianOf(row.wall), 1e-6));
+        .add("pairs_per_s", median > 0 ? std::optional(1000 * static_cast<double>(row.pairs) / median) : std::nullopt);
 }
 
 /// How a mode is written.

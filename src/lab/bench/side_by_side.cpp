@@ -17,6 +17,8 @@ constexpr std::size_t kCounting = 1; ///< the engine that the others are held ag
 constexpr double kShortest = 0.03;
 constexpr double kLongest = 1.0;
 constexpr std::size_t kFewestPoses = 8;
+/// Of a sample, should the clock stand still.
+constexpr double kMostPasses = 10'000;
 
 /// What an engine does for a sample.
 struct Sample {
@@ -84,7 +86,7 @@ Result<std::vector<Sample>> verify(const BenchRun& run, const Work& work, const 
         samples.push_back(
             {.engine = engine,
              .work = work.at(work.poses.first(std::min(work.poses.size(), std::max(kFewestPoses, fitting)))),
-             .passes = std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(kShortest / took->wall))),
+             .passes = static_cast<std::size_t>(std::clamp(std::ceil(kShortest / took->wall), 1.0, kMostPasses)),
              .row = number,
              .besideRow = firstRow + row.engine.ratioTo});
     }

@@ -51,13 +51,14 @@ Series seriesOf(Sweep sweep, const std::string& method, const Work& work, Mode m
             .voxels = work.volume->data.grid.size};
 }
 
-double Series::pairsPerSecond() const {
+std::optional<double> Series::pairsPerSecond() const {
     const double median = wall.empty() ? 0 : medianOf(wall);
-    return median > 0 ? 1000.0 * batch / median : 0;
+    return median > 0 ? std::optional(1000.0 * batch / median) : std::nullopt;
 }
 
 std::optional<double> Series::fragmentsPerSecond() const {
-    return fragments ? std::optional(pairsPerSecond() * *fragments) : std::nullopt;
+    const std::optional<double> rate = pairsPerSecond();
+    return fragments && rate ? std::optional(*rate * *fragments) : std::nullopt;
 }
 
 bool Series::counts() const {
@@ -68,7 +69,7 @@ bool Series::counts() const {
 const Series* fastestOf(std::span<const Series> all, const std::function<bool(const Series&)>& wanted) {
     const Series* best = nullptr;
     for (const Series& series : all) {
-        if (series.sweep == Sweep::Batch && !series.wall.empty() && series.counts() && wanted(series) &&
+        if (series.sweep == Sweep::Batch && series.pairsPerSecond() && series.counts() && wanted(series) &&
             (best == nullptr || series.pairsPerSecond() > best->pairsPerSecond())) {
             best = &series;
         }
@@ -179,6 +180,7 @@ Result<void> compare(const CompareSettings& settings, const Scene& scene, const 
             addOracleSeries(scene, result);
         }
     }
+    noteMissedTimes(session, result.notes);
     return {};
 }
 

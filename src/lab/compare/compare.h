@@ -41,7 +41,8 @@ struct Series {
     std::vector<double> gpu{};         ///< the same; empty where there is no GPU time
     std::array<std::uint32_t, 3> voxels{};
 
-    [[nodiscard]] double pairsPerSecond() const;
+    /// Nothing where the clock stood still.
+    [[nodiscard]] std::optional<double> pairsPerSecond() const;
     [[nodiscard]] std::optional<double> fragmentsPerSecond() const;
     /// Whether it answers more than yes or no, and is no judge.
     [[nodiscard]] bool counts() const;

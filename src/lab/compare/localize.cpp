@@ -187,6 +187,10 @@ Result<void> localize(const device::Session& session, const CompareSettings& set
     VOXTACT_TRY(engines);
     VOXTACT_TRY(findAll(*engines, settings, scene, result, step));
     judgeLocalize(result);
+    if (session.device.hasTimestamps() && result.ways.front().gpu.size() < result.ways.front().wall.size()) {
+        session.device.missTimestamp();
+    }
+    noteMissedTimes(session, result.notes);
     return listWrong(engines->back(), scene, result);
 }
 

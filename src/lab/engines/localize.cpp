@@ -134,7 +134,7 @@ Result<std::vector<std::uint64_t>> count(Localizer::State& localizer, const Batc
     if (results.timestamps) {
         const Result<double> time = localizer.results.gpuMilliseconds();
         VOXTACT_TRY(time);
-        *gpuMilliseconds += *time;
+        gpuMilliseconds = gpuMilliseconds && *time > 0 ? std::optional(*gpuMilliseconds + *time) : std::nullopt;
     }
     return counts;
 }

@@ -88,4 +88,10 @@ Machine describeMachine(const device::Session& session, ScalarType type, const P
     return machine;
 }
 
+void noteMissedTimes(const device::Session& session, std::vector<std::string>& notes) {
+    if (session.device.missedTimestamps()) {
+        notes.emplace_back("timestamps of the device went backwards, or did not move: those samples have no GPU time");
+    }
+}
+
 } // namespace voxtact::lab

@@ -43,5 +43,7 @@ struct Machine {
 /// Without a device.
 [[nodiscard]] Machine describeHost(const Provenance& provenance);
 [[nodiscard]] Machine describeMachine(const device::Session& session, ScalarType type, const Provenance& provenance);
+/// When all is measured: a note where the device's clock has failed meanwhile.
+void noteMissedTimes(const device::Session& session, std::vector<std::string>& notes);
 
 } // namespace voxtact::lab

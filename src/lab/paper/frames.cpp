@@ -137,7 +137,11 @@ Result<void> FrameLoop::State::readTimes(FramePart part, bool onDevice, FrameSam
     if (part == FramePart::Detection) {
         const Result<double> time = results.gpuMilliseconds();
         VOXTACT_TRY(time);
-        sample.gpu = *time;
+        if (*time > 0) {
+            sample.gpu = *time;
+        } else {
+            session.device.missTimestamp();
+        }
         return {};
     }
     VOXTACT_TRY(read(kPictureBegins, kMeshDone, sample.mesh));

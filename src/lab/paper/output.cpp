@@ -46,7 +46,7 @@ Row rowOf(const PaperRow& row, const PaperClock& clock, const PaperResult& resul
         .column("poses", scene.poses)
         .column("survivors", row.survivors)
         .column("hits", row.hits)
-        .column("samples", row.wall.rendering.size())
+        .column("samples", columns.rendering.size())
         .add("mesh_ms", columns.mesh, {""})
         .add("volume_ms", columns.volume, {""})
         .add("collision_ms", columns.collision, {"", "_p10", "_p90"})

@@ -40,7 +40,7 @@ std::vector<double> paired(const std::vector<double>& rendering, const std::vect
         return out;
     }
     for (std::size_t i = 0; i < other.size(); ++i) {
-        // A clock may be so coarse that a small picture takes no time.
+        // A clock may be so coarse, or stand still, that a small picture takes no time.
         if (rendering[i] > 0) {
             out.push_back(percent(rendering[i], other[i]));
         }
@@ -86,8 +86,11 @@ Result<void> measurePaper(const PaperSettings& settings, const device::Session& 
             return measured;
         }
     }
-    return settings.noSweeps ? Result<void>()
-                             : runPaperSweeps(run, settings.timeLimit * (1 - kFramesShare), inputs->front().scene);
+    if (!settings.noSweeps) {
+        VOXTACT_TRY(runPaperSweeps(run, settings.timeLimit * (1 - kFramesShare), inputs->front().scene));
+    }
+    noteMissedTimes(session, result.notes);
+    return {};
 }
 
 } // namespace voxtact::lab

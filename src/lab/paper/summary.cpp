@@ -145,10 +145,10 @@ void addPairs(const PaperResult& result, std::vector<std::string>& sentences) {
                             pairsPerSecond(found->first.median) + there);
     }
     const Series* const best = fastestOf(result.series, [](const Series&) { return true; });
-    if (best != nullptr && best->pairsPerSecond() > 0) {
+    if (best != nullptr) {
         sentences.push_back("the fastest in batches is " + best->method + " with " + grouped(best->batch) +
                             " pairs a submission (" + toString(best->mode) +
-                            "): " + pairsPerSecond(1000 / best->pairsPerSecond()) + there);
+                            "): " + pairsPerSecond(1000 / *best->pairsPerSecond()) + there);
     }
 }
 
