@@ -10,6 +10,8 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cstdlib>
+#include <exception>
 #include <new>
 
 namespace voxtact::app {
@@ -121,9 +123,29 @@ int run(std::vector<std::string> arguments) {
     return finish("", Outcome(kExitArguments, "a command is needed; see voxtact --help"));
 }
 
+std::terminate_handler standardEnd = nullptr;
+
+/// Where no exception may pass and there is no memory: destructors of JSON make room for what they take apart.
+[[noreturn]] void endWithoutMemory() noexcept {
+    try {
+        if (std::current_exception() != nullptr) {
+            throw;
+        }
+    } catch (const std::bad_alloc&) {
+        printOutOfMemory();
+        std::_Exit(kExitFailed);
+    } catch (...) {
+        standardEnd();
+    }
+    std::abort();
+}
+
 } // namespace
 
 int runProgram(std::vector<std::string> arguments) {
+    if (std::get_terminate() != endWithoutMemory) {
+        standardEnd = std::set_terminate(endWithoutMemory);
+    }
     try {
         return run(std::move(arguments));
     } catch (const std::bad_alloc&) {
