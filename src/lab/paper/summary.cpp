@@ -118,12 +118,13 @@ void addIntervals(const PaperResult& result, std::vector<std::string>& sentences
         const bool timed = std::ranges::any_of(
             result.rows, [&](const PaperRow& row) { return !overheadPercent(row.*clock.columns).empty(); });
         if (timed && all == 0) {
-            sentences.push_back("no interval (95 %) of what detection adds is known, " + std::string(clock.words) +
-                                ": too few samples");
+            sentences.push_back("no interval (of 95 % or more) of what detection adds is known, " +
+                                std::string(clock.words) + ": too few samples");
         }
         if (all > 0) {
             sentences.push_back("in " + grouped(apart) + " of " + grouped(all) +
-                                " rows the interval (95 %) of what detection adds leaves out 0, " + clock.words);
+                                " rows the interval (of 95 % or more) of what detection adds leaves out 0, " +
+                                clock.words);
         }
     }
 }
