@@ -165,7 +165,7 @@ TEST_F(BenchTest, LatencyRefusesWhatItHasNoUseFor) {
     EXPECT_THAT(refused(2, with({"--report", "x.html"})), HasSubstr("--report is for --paper"));
     EXPECT_THAT(refused(2, with({"--certified"})), HasSubstr("--certified"));
     EXPECT_THAT(refused(2, {"bench", "--latency", "--number", "4294967295"}),
-                HasSubstr("--number: there can be 10000000 ticks"));
+                HasSubstr("--number: '4294967295' is not a whole number from 1 to 10000000"));
     EXPECT_THAT(refused(2, bench("8", "1", {"--time-limit", "3"})), HasSubstr("--time-limit is for"));
     EXPECT_THAT(refused(2, with({"--opacity", "0:0,255:0"})), HasSubstr("no poses around the onset of contact"));
 }
@@ -206,6 +206,9 @@ TEST_F(BenchTest, WhatCannotBeDoneIsOneLine) {
     EXPECT_THAT(refused(2, bench("8", "1", {"--volume", "builtin:sphere"})), HasSubstr("one --volume"));
     EXPECT_THAT(refused(2, bench("8", "0")), HasSubstr("--repetitions"));
     EXPECT_THAT(refused(2, bench("none.txt", "1")), HasSubstr("--number"));
+    EXPECT_THAT(refused(2, {"bench", "--certified", "--number", "1000000000"}),
+                HasSubstr("--number: '1000000000' is not a whole number from 1 to 10000000"));
+    EXPECT_THAT(refused(2, {"bench", "--certified", "--poses", "poses.txt"}), HasSubstr("unknown argument '--poses'"));
     EXPECT_THAT(refused(2, bench("8", "1", {"--mesh", "builtin:spoon"})), HasSubstr("spoon"));
     EXPECT_THAT(refused(1, bench("8", "1", {"--output", path("none/out.csv")})), HasSubstr("does not exist"));
     EXPECT_EQ(filesInFolder(), 0U);

@@ -283,6 +283,9 @@ TEST_F(CompareTest, WhatCannotBeDoneIsOneLine) {
                     HasSubstr("each needs a file of its own"));
         EXPECT_THAT(refused(2, compare({"--report", "-"})), HasSubstr("--report: - is standard output"));
     }
+    EXPECT_THAT(refused(2, {"compare", "--volume", "builtin:head:16", "--mesh", "builtin:scalpel:100", "--number",
+                            "1000000000"}),
+                HasSubstr("--number: '1000000000' is not a whole number from 1 to 10000000"));
     EXPECT_THAT(refused(2, compare({"--only-pose", "-1"})), HasSubstr("--only-pose: '-1' is not a whole number"));
     EXPECT_EQ(filesInFolder(), 0U);
 }

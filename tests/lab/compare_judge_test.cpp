@@ -112,6 +112,8 @@ TEST(CompareJudge, FragmentsWithAReasonAgree) {
     const Verdict verdict = lab::judgeFragments(checks);
     EXPECT_FALSE(verdict.failed());
     EXPECT_EQ(verdict.compared, 203U);
+    EXPECT_THAT(verdict.detail, HasSubstr("on 2 poses: "));
+    EXPECT_EQ(lab::judgeFragments(std::vector{checkOf(1, {})}).detail, "on 1 pose");
     EXPECT_EQ(verdict.differing, 3U);
     EXPECT_THAT(countsOf(checks), ElementsAre(1, 0, 2, 0));
 }

@@ -2,6 +2,7 @@
 #include "app/compare/compare_options.h"
 
 #include "app/options/lab_run.h"
+#include "lab/measure/poses.h"
 
 #include <CLI/CLI.hpp>
 
@@ -62,7 +63,9 @@ void readSweep(const std::string& name, CompareOptions& options) {
 void addPoseOptions(CLI::App& parser, CompareOptions& options) {
     parser.get_option("--poses")->description(
         "a world_from_object matrix a line: 16 numbers, row by row; default: random ones, as make poses gives");
-    addWholeNumber(parser, "--number", options.number, 1, "how many random poses");
+    addWholeNumber(
+        parser, "--number", [&options](std::uint32_t number) { options.number = number; },
+        {.least = 1, .most = kMostPoses}, "how many random poses", options.number);
     addSeed(parser, options.seed);
     parser.get_option("--number")->excludes("--poses");
     parser.get_option("--seed")->excludes("--poses");

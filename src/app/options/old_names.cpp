@@ -28,6 +28,11 @@ bool isOf(std::span<const std::string> arguments, const std::array<std::string_v
     return arguments.size() >= words && std::ranges::equal(arguments.first(words), std::span(command).first(words));
 }
 
+/// All of the old names were of numbers; with another value it is not they that are meant.
+bool isNumber(std::string_view text) {
+    return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
 } // namespace
 
 std::vector<std::string> withNewNames(std::vector<std::string> arguments) {
@@ -35,10 +40,14 @@ std::vector<std::string> withNewNames(std::vector<std::string> arguments) {
         if (!isOf(arguments, name.command)) {
             continue;
         }
-        for (std::string& argument : arguments) {
-            const std::string_view option = std::string_view(argument).substr(0, argument.find('='));
-            if (option == name.old) {
-                argument.replace(0, option.size(), name.now);
+        for (std::size_t i = 0; i < arguments.size(); ++i) {
+            const std::string_view argument = arguments[i];
+            const std::string_view option = argument.substr(0, argument.find('='));
+            const std::string_view value = option.size() < argument.size() ? argument.substr(option.size() + 1)
+                                           : i + 1 < arguments.size()      ? std::string_view(arguments[i + 1])
+                                                                           : std::string_view();
+            if (option == name.old && isNumber(value)) {
+                arguments[i].replace(0, option.size(), name.now);
             }
         }
     }

@@ -23,8 +23,6 @@ struct BenchSettings {
     std::uint32_t repetitions = 7; ///< not of ticks
     double timeLimit = 60;         ///< seconds of ticks and batches: fewer of them are taken where they do not fit
 };
-/// Ticks of a measurement, at most: all their poses are held at once.
-inline constexpr std::uint32_t kMostTicks = 10'000'000;
 
 /// What a mode measures where nothing else was asked for.
 struct BenchDefaults {

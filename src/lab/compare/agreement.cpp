@@ -215,8 +215,8 @@ Verdict judgeFragments(std::span<const FragmentCheck> checks) {
                               (doubt == oracle::Doubt::None ? "nothing that explains them" : toString(doubt)));
         }
     }
-    verdict.detail =
-        "on " + std::to_string(checks.size()) + " poses" + (reasons.empty() ? "" : ": ") + joined(reasons, ", ");
+    verdict.detail = "on " + std::to_string(checks.size()) + (checks.size() == 1 ? " pose" : " poses") +
+                     (reasons.empty() ? "" : ": ") + joined(reasons, ", ");
     return verdict;
 }
 

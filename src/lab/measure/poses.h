@@ -9,6 +9,9 @@
 
 namespace voxtact::lab {
 
+/// Poses of a measurement, at most: all are held at once.
+inline constexpr std::uint32_t kMostPoses = 10'000'000;
+
 /// `count` rigid poses: a random rotation, and a random vertex of the mesh at a random point of the volume's box made
 /// larger by a tenth on each side. The same arguments give the same poses, bit for bit, on every machine with IEEE
 /// arithmetic. The mesh must have a vertex and the grid must be one that checkGrid() accepts.

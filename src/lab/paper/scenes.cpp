@@ -213,7 +213,7 @@ Result<void> chooseTouching(std::uint32_t count, std::uint64_t seed, const std::
     std::uint64_t end = count;
     for (std::uint64_t tried = 0; scene.poses.size() < count; tried = end, end = std::min(2 * end, most)) {
         if (tried == most) {
-            return refuse("--poses: of " + std::to_string(tried) + " random poses of " + name + " only " +
+            return refuse("--number: of " + std::to_string(tried) + " random poses of " + name + " only " +
                           std::to_string(scene.poses.size()) + " touch in a view of " +
                           std::to_string(scene.view.width) + "x" + std::to_string(scene.view.height) +
                           " pixels (--size)");
