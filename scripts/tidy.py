@@ -5,14 +5,15 @@
 usage: tidy.py [--all-checks] BUILD_FOLDER [FILE|FOLDER...]
 
 A file that passed is looked at again only when one of the texts that it is compiled from has changed: the file, the
-headers of ours that it includes as the last build saw them, its command, the checks, or clang-tidy. What passed is kept
-as hashes of these in $XDG_CACHE_HOME/voxtact-tidy, else ~/.cache/voxtact-tidy, for all checkouts, until no run has met
-it for 60 days. Without --all-checks, the slow one of the checks is left out, and files that the
+headers of ours that it includes as the last build saw them, its command, the checks, this script, the compiler, or
+clang-tidy. What passed is kept as hashes of these in $XDG_CACHE_HOME/voxtact-tidy, else ~/.cache/voxtact-tidy, for all
+checkouts, until no run has met it for 60 days. Without --all-checks, the slow one of the checks is left out, and files that the
 build compiles alike are looked at as one, since most of the time goes into headers: where something is found, which may
 be no more than two equal names, each half by itself, down to one file. With it, each is from the start: checks of main
 files alone find more. The exit status is 1 when there was a finding.
 """
 import concurrent.futures
+import contextlib
 import hashlib
 import json
 import os
@@ -25,7 +26,7 @@ import tempfile
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-CONFIGS = [ROOT / ".clang-tidy"]
+CONFIG = ROOT / ".clang-tidy"
 # As long as all others together, in other people's templates.
 SLOW_CHECKS = "-performance-unnecessary-value-param"
 TOGETHER = 16
@@ -100,10 +101,12 @@ def hashes_of(build, commands, checks):
     """Of each source: all that it is compiled from and looked at by, as one hash."""
     deps = headers_of_objects(build)
     hashes = Hashes()
-    version = subprocess.run(["clang-tidy", "--version"], text=True, capture_output=True, check=True).stdout
+    compilers = {shlex.split(entry["command"])[0] for entry in commands.values()}
+    version = "".join(subprocess.run([program, "--version"], text=True, capture_output=True, check=True).stdout
+                      for program in ["clang-tidy", *sorted(compilers)])
     for source, entry in commands.items():
         output = re.search(r" -o (\S+)", entry["command"])
-        parts = sorted({source, *CONFIGS, *deps.get(output[1] if output else "", [])})
+        parts = sorted({source, CONFIG, pathlib.Path(__file__).resolve(), *deps.get(output[1] if output else "", [])})
         text = version + checks + entry["command"].replace(f"{ROOT}/", "")
         text += "".join(f"{path.relative_to(ROOT)}{hashes.of(path)}" for path in parts)
         yield source, hashlib.sha256(text.encode()).hexdigest()
@@ -133,8 +136,9 @@ def passed_folder():
     folder.mkdir(parents=True, exist_ok=True)
     oldest = time.time() - KEPT_DAYS * 24 * 3600
     for key in folder.iterdir():
-        if key.is_file() and key.stat().st_mtime < oldest:
-            key.unlink(missing_ok=True)
+        with contextlib.suppress(FileNotFoundError):  # another run may remove it first
+            if key.stat().st_mtime < oldest:
+                key.unlink()
     return folder
 
 
@@ -166,8 +170,9 @@ class Tidy:
         """Whether it finds nothing, and its findings."""
         with tempfile.TemporaryDirectory(dir=self.folder) as database:
             (pathlib.Path(database) / "compile_commands.json").write_text(json.dumps([entry]))
-            done = subprocess.run(["clang-tidy", "--quiet", f"--checks={self.checks}", "-p", database, *options,
-                                   entry["file"]], text=True, capture_output=True)
+            # The configuration by its name: what is looked at may be anywhere.
+            done = subprocess.run(["clang-tidy", "--quiet", f"--config-file={CONFIG}", f"--checks={self.checks}", "-p",
+                                   database, *options, entry["file"]], text=True, capture_output=True)
         # The count of warnings in other people's headers goes to standard error: of no interest unless it fails.
         return done.returncode == 0, done.stdout + (done.stderr if done.returncode != 0 else "")
 
@@ -201,12 +206,14 @@ def main():
     build, *names = [argument for argument in arguments if argument != "--all-checks"]
     build = pathlib.Path(build).resolve()
     passed = passed_folder()
+    scratch = build / "tidy"
+    scratch.mkdir(exist_ok=True)
     commands = commands_of(build, names or ["src"])
     keys = {source: key for source, key in sorted(hashes_of(build, commands, checks)) if not has(passed / key)}
     work = [[source] for source in keys] if all_checks else list(groups_of(commands, keys))
     found = False
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        for looked_at in pool.map(Tidy(passed, commands, checks).look, work):
+        for looked_at in pool.map(Tidy(scratch, commands, checks).look, work):
             for source, good, text in looked_at:
                 print(text, end="")
                 if good:

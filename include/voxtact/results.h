@@ -96,7 +96,7 @@ struct BatchAnswer {
     std::vector<LabelClearance> labelClearances; ///< with DetectorDesc::labelClearances: by pair, then as Batch::labels
     std::vector<SegmentMotion> motions;          ///< with DetectorDesc::motion, in the order of the batch
     std::optional<CertifiedCounters> counters{}; ///< with DetectorDesc::counters
-    double gpuMilliseconds = 0;                  ///< device time of the batch; 0 where the queue has no timestamps
+    double gpuMilliseconds = 0;                  ///< device time of the batch; 0 where it is not known
     double wallMilliseconds = 0;                 ///< from the start of recording to the results in host memory
 };
 

@@ -123,10 +123,11 @@ int run(std::vector<std::string> arguments) {
     return finish("", Outcome(kExitArguments, "a command is needed; see voxtact --help"));
 }
 
-std::terminate_handler standardEnd = nullptr;
+std::terminate_handler standardHandler = nullptr;
 
-/// Where no exception may pass and there is no memory: destructors of JSON make room for what they take apart.
-[[noreturn]] void endWithoutMemory() noexcept {
+/// Where no exception may pass and there is no memory: destructors of JSON make room for what they take apart. No other
+/// destructor may run then, so the process ends at once.
+[[noreturn]] void onTerminate() noexcept {
     try {
         if (std::current_exception() != nullptr) {
             throw;
@@ -135,16 +136,17 @@ std::terminate_handler standardEnd = nullptr;
         printOutOfMemory();
         std::_Exit(kExitFailed);
     } catch (...) {
-        standardEnd();
+        standardHandler();
     }
+    standardHandler();
     std::abort();
 }
 
 } // namespace
 
 int runProgram(std::vector<std::string> arguments) {
-    if (std::get_terminate() != endWithoutMemory) {
-        standardEnd = std::set_terminate(endWithoutMemory);
+    if (std::get_terminate() != onTerminate) {
+        standardHandler = std::set_terminate(onTerminate);
     }
     try {
         return run(std::move(arguments));

@@ -43,8 +43,8 @@ class TimedCommands {
     [[nodiscard]] Result<void> poll();
     /// Waits for everything on the device, after an error.
     void waitForAll() const;
-    /// Between two timestamps of what was waited for, ms. Nothing where the queue has none, or went
-    /// backwards.
+    /// Between two timestamps of what was waited for, ms. Nothing where the queue has none, or its
+    /// clock went backwards.
     [[nodiscard]] Result<std::optional<double>> between(std::uint32_t from, std::uint32_t to) const;
 
   private:

@@ -114,7 +114,7 @@ class VulkanDevice {
     [[nodiscard]] QueueAccess queueAccess() const noexcept;
     /// Threads share the queue: held by whoever submits to it, shows an image, or waits for all that is on the device.
     [[nodiscard]] std::unique_lock<std::mutex> lockQueue() const;
-    /// Of which something can be told: with a period.
+    /// With a period: without one they are no time.
     [[nodiscard]] bool hasTimestamps() const noexcept;
     /// To be remembered: timestamps went backwards, or did not move, and were no time.
     void missTimestamp() const noexcept;

@@ -135,18 +135,23 @@ TEST_F(CompareTest, EverySeriesSaysWhatItWasMeasuredOn) {
 /// However little time there is, what stands side by side is of the same pairs.
 TEST_F(CompareTest, MethodsAreTimedOnTheSamePoses) {
     const Json result = Json::parse(
-        output({"compare", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:500", "--number", "128",
+        output({"compare", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:500", "--number", "20000",
                 "--oracle", "0", "--size", "64x64", "--time-limit", "1", "--repetitions", "2", "--format", "json"}));
     std::map<std::string, Json> first;
+    bool cut = false;
     for (const Json& series : result["series"]) {
         const std::string way = series["mode"].get<std::string>() + " " + series["batch"].dump();
         const Json& same = first.emplace(way, series).first->second;
         EXPECT_EQ(series["pairs_a_sample"], same["pairs_a_sample"]) << way << " " << series["method"];
-        const double fragments = same["fragments_a_pair"];
-        EXPECT_NEAR(series["fragments_a_pair"], fragments, 0.02 * fragments) << way << " " << series["method"];
+        cut = cut || series["pairs_a_sample"] < 20000;
+        // Those that count the same on a pose do so on the same poses.
+        const std::string method = series["method"];
+        const std::string kind = method == "cpu" || method == "compute" ? " counted" : " rasterised";
+        EXPECT_EQ(series["fragments_a_pair"], first.emplace(way + kind, series).first->second["fragments_a_pair"])
+            << way << " " << method;
     }
-    EXPECT_LT(first.at("sync 1")["pairs_a_sample"], 128);
-    EXPECT_THAT(result["notes"].dump(), HasSubstr("waited for: the times of all methods are of the same "));
+    EXPECT_TRUE(cut);
+    EXPECT_THAT(result["notes"].dump(), HasSubstr("the times of all methods are of the same "));
 }
 
 TEST_F(CompareTest, CsvHasOneHeaderAndSaysWhatAgrees) {

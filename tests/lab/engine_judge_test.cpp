@@ -108,7 +108,7 @@ TEST(EngineOutputTest, AShareHasItsWholeOrIsNone) {
     EXPECT_EQ(json["rows"][0]["no_contacts"], 0);
     EXPECT_EQ(json["rows"][0]["possible"], 0);
     const std::string sentence = json["summary"][0];
-    EXPECT_NE(sentence.find("; that misses 25 % of the 4 contacts"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("; of the 4 contacts that misses 25 %"), std::string::npos) << sentence;
     EXPECT_EQ(sentence.find("certainly do not touch"), std::string::npos) << sentence;
 }
 

@@ -20,7 +20,7 @@ constexpr const char* kCompareFooter =
     R"(The same pairs, one mesh at many poses against one volume, by every method: verified first, then timed.
 
 Agreement. query = atomic = subgroup on every pose, query-any hits where they do, compute = cpu on every pose bit for
-bit; the two groups apart by no more than half of cpu's count and 64 fragments. On --oracle poses each fragment of the
+bit; the two groups apart by no more than (half of cpu's count + 64 fragments). On --oracle poses each fragment of the
 device's rasteriser is compared with an oracle in double precision; one that only one side has must be within rounding
 of an edge, of the volume's boundary or of the threshold. Otherwise the exit status is 3, with the first pose and a
 command line that shows it again, and nothing is written.

@@ -35,7 +35,7 @@ constexpr const char* kDetectFooter =
                                '# pairs= wall_ms= pairs_per_s=' has the time of all. Reading files, uploads and making
                                pipelines are not included; there is no warm-up. With --batch 1 each pair is submitted
                                and waited for alone. With --count cpu gpu_ms is 0; it is empty where the device has
-                               no timestamps.
+                               no timestamps, or they went backwards or did not move.
 With --stats a line '# clusters= clusters_kept= ...' says what the passes of conservative did on the device; the manual's
 page "The certified engine on a device" has what each number is.
 Contacts (--contacts): pose,triangle,x,y,z,nx,ny,nz,depth,value,opacity,label, in world mm, LPS; as points in PLY, in

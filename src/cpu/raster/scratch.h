@@ -32,7 +32,7 @@ enum VertexState : std::int32_t {
     kOutsideBits = 0x3f, ///< outside of that clipping plane
     kBadW = 0x40,
     kNotAffine = 0x80,    ///< w is not 1
-    kBeyondBits = 0x3f00, ///< beyond that side of the image: below it along x, above it, along y, …; with a range test
+    kBeyondBits = 0x3f00, ///< two for each axis, where there is a range test: below the image, above it
 };
 
 /// Small triangles that wait for a full vector: sub-pixels and vertices (indices into VertexLanes).

@@ -102,10 +102,10 @@ std::string shortText(double value) {
     return text.str();
 }
 
-/// "12.5 % of the 8 contacts"; nothing where there are none.
-std::string shareText(const char* begin, std::uint64_t part, std::uint64_t whole, const char* what) {
+/// "; of the 8 contacts that misses 12.5 %"; nothing where there are none.
+std::string shareText(const char* what, std::uint64_t part, std::uint64_t whole) {
     const std::optional<double> percent = percentOf(part, whole);
-    return percent ? begin + shortText(*percent) + " % of the " + grouped(whole) + what : std::string();
+    return percent ? "; of the " + grouped(whole) + what + shortText(*percent) + " %" : std::string();
 }
 
 /// How the first engine of each scene, yes or no on one thread, does beside FCL.
@@ -119,8 +119,8 @@ std::vector<std::string> besideFcl(const BenchResult& result) {
         out.push_back(
             row.mesh + ", poses " + row.poses + ": cpu yes/no answers for " + shortText(1 / spread.median) + " (" +
             shortText(1 / spread.max) + " to " + shortText(1 / spread.min) + ") times the pairs of " + row.engine.name +
-            " in the same CPU time" + shareText("; that misses ", row.missed, row.contacts, " contacts") +
-            shareText("; that calls contacts ", row.wrong, row.untouched, " poses that certainly do not touch"));
+            " in the same CPU time" + shareText(" contacts that misses ", row.missed, row.contacts) +
+            shareText(" poses that certainly do not touch it reports as contacts ", row.wrong, row.untouched));
     }
     return out;
 }
@@ -200,8 +200,8 @@ void noteTicks(const BenchSettings& settings, const BenchResult& result, std::ve
     }
     if (!blind.empty()) {
         notes.push_back(
-            "no tick of these touches, as a stroke begins outside: their times are of poses without contact, "
-            "and their answers were all no: " +
+            "no tick of these touches (a stroke begins outside): their times are of poses without contact, and "
+            "their answers were all no: " +
             joined(blind, ", "));
     }
 }

@@ -155,12 +155,16 @@ bool explainedByRounding(std::uint64_t raster, std::uint64_t host, bool yesNo) n
     return std::max(raster, host) - std::min(raster, host) <= host / 2 + kRoundedFragments;
 }
 
+std::string roundingRule(const std::string& raster, const std::string& host, bool yesNo) {
+    const std::string fragments = std::to_string(kRoundedFragments) + " fragments";
+    return yesNo ? raster + " hits where " + host + " counts more than " + fragments + ", and not where it counts none"
+                 : raster + " and " + host + " are apart by no more than (half of " + host + "'s count + " + fragments +
+                       ")";
+}
+
 Verdict judgeRounding(const NamedCounts& raster, const NamedCounts& host, std::span<const std::uint32_t> poses) {
     const bool yesNo = isAny(raster);
-    Verdict verdict{.rule = raster.method + " is what roundings make of " + host.method + " (" +
-                            (yesNo ? "" : "half of its count and ") + std::to_string(kRoundedFragments) +
-                            " fragments at most)",
-                    .byRule = true};
+    Verdict verdict{.rule = roundingRule(raster.method, host.method, yesNo), .byRule = true};
     const auto apart = [&](std::size_t i) -> std::uint64_t {
         const auto [least, most] = std::minmax(raster.counts[i], host.counts[i]);
         return explainedByRounding(raster.counts[i], host.counts[i], yesNo) ? 0 : most - least;

@@ -56,6 +56,8 @@ inline constexpr std::uint64_t kRoundedFragments = 64;
 /// Whether what a rasteriser counts can be what the host counts but for roundings at pixels' centres and between table
 /// entries. `yesNo`: of a method that knows whether there are fragments, and not how many.
 [[nodiscard]] bool explainedByRounding(std::uint64_t raster, std::uint64_t host, bool yesNo = false) noexcept;
+/// In words.
+[[nodiscard]] std::string roundingRule(const std::string& raster, const std::string& host, bool yesNo = false);
 /// That holds on every pose.
 [[nodiscard]] Verdict judgeRounding(const NamedCounts& raster, const NamedCounts& host,
                                     std::span<const std::uint32_t> poses);

@@ -42,10 +42,8 @@ void addAgreement(const PaperResult& result, std::vector<std::string>& sentences
     }
     const std::vector<std::string> raster = measured(result, {Query, Atomic, Subgroup});
     if (!raster.empty() && !measured(result, {Cpu}).empty()) {
-        sentences.push_back(raster.front() +
-                            " and cpu are as far apart as roundings explain, no pose by more than half of "
-                            "cpu's count and " +
-                            std::to_string(kRoundedFragments) + " fragments; no oracle was asked");
+        sentences.push_back(roundingRule(raster.front(), toString(CountingMethod::Cpu)) +
+                            ", on every pose; no oracle was asked");
     }
 }
 

@@ -183,20 +183,37 @@ TEST_F(RandomPosesTest, AllMethodsOnTheSecondHalf) {
 
 TEST_F(HostAgreementTest, ComputeOfTrianglesWithAFarCorner) {
     std::mt19937_64 random(testSeed());
-    const DetectorDesc desc{.method = CountingMethod::Compute, .filter = Filter::Exact, .boundary = Boundary::Range};
-    BlockingDetector compute = detector(desc);
-    cpu::Detector host = take(cpu::Detector::create({.boundary = Boundary::Range}));
     std::size_t hits = 0;
     const std::size_t scenes = randomCases(3000, 50);
-    for (std::size_t i = 0; i < scenes && !HasFailure(); ++i) {
-        const RandomScene scene = makeFarCornerScene(random, 2);
-        const BothSides sides(context(), queue(), scene);
-        const BatchItem item{&sides.mesh, &sides.volume, &sides.function, scene.poses};
-        const cpu::BatchItem hostItem{&sides.hostMesh, &sides.hostVolume, &sides.hostFunction, scene.poses};
-        const auto counts = countsOf(take(host.detect({std::span(&hostItem, 1), scene.view, scene.threshold})));
-        EXPECT_EQ(countsOf(take(compute.detect({std::span(&item, 1), scene.view, scene.threshold}))), counts)
-            << "scene " << i;
-        hits += std::ranges::count_if(counts, [](std::uint64_t count) { return count > 0; });
+    for (const Projection projection : {Projection::View, Projection::TwoView, Projection::DominantAxis}) {
+        for (const Boundary boundary : {Boundary::Range, Boundary::Clamp}) {
+            SCOPED_TRACE(std::string(toString(projection)) + ", " + toString(boundary));
+            BlockingDetector compute = detector({.method = CountingMethod::Compute,
+                                                 .projection = projection,
+                                                 .filter = Filter::Exact,
+                                                 .boundary = boundary});
+            cpu::Detector host = take(cpu::Detector::create({.boundary = boundary, .projection = projection}));
+            cpu::Detector first =
+                take(cpu::Detector::create({.boundary = boundary, .stopAtFirst = true, .projection = projection}));
+            cpu::Detector listing = take(cpu::Detector::create(
+                {.boundary = boundary, .projection = projection, .outputs = {.triangles = true}}));
+            for (std::size_t i = 0; i < scenes / 6 && !HasFailure(); ++i) {
+                const RandomScene scene = makeFarCornerScene(random, 2);
+                const BothSides sides(context(), queue(), scene);
+                const BatchItem item{&sides.mesh, &sides.volume, &sides.function, scene.poses};
+                const cpu::BatchItem hostItem{&sides.hostMesh, &sides.hostVolume, &sides.hostFunction, scene.poses};
+                const cpu::Batch onHost{std::span(&hostItem, 1), scene.view, scene.threshold};
+                const auto counts = countsOf(take(host.detect(onHost)));
+                EXPECT_EQ(countsOf(take(compute.detect({std::span(&item, 1), scene.view, scene.threshold}))), counts)
+                    << "scene " << i;
+                EXPECT_EQ(countsOf(take(listing.detect(onHost))), counts) << "scene " << i;
+                const auto yesNo = countsOf(take(first.detect(onHost)));
+                for (std::size_t pose = 0; pose < counts.size(); ++pose) {
+                    EXPECT_EQ(yesNo[pose], counts[pose] > 0 ? 1U : 0U) << "scene " << i;
+                    hits += yesNo[pose];
+                }
+            }
+        }
     }
     EXPECT_GT(hits, scenes / 50);
 }
