@@ -184,7 +184,7 @@ TEST_F(RandomPosesTest, AllMethodsOnTheSecondHalf) {
 TEST_F(HostAgreementTest, ComputeOfTrianglesWithAFarCorner) {
     std::mt19937_64 random(testSeed());
     std::size_t hits = 0;
-    const std::size_t scenes = randomCases(3000, 50);
+    const std::size_t scenes = randomCases(3000, 100);
     for (const Projection projection : {Projection::View, Projection::TwoView, Projection::DominantAxis}) {
         for (const Boundary boundary : {Boundary::Range, Boundary::Clamp}) {
             SCOPED_TRACE(std::string(toString(projection)) + ", " + toString(boundary));
