@@ -18,14 +18,16 @@ std::vector<std::uint64_t> survivorsOf(const std::vector<cpu::ReferenceCounts>& 
     return out;
 }
 
-std::vector<std::uint64_t> engineCounts(const RandomScene& scene, std::uint32_t threads, bool stopAtFirst = false) {
+std::vector<std::uint64_t> engineCounts(const RandomScene& scene, std::uint32_t threads, bool stopAtFirst = false,
+                                        const Outputs& outputs = {}) {
     const cpu::Volume volume = std::move(cpu::Volume::create(scene.volume.view())).value();
     const cpu::TransferFunction function = std::move(cpu::TransferFunction::create(scene.transferFunction())).value();
     const cpu::Mesh mesh = std::move(cpu::Mesh::create(scene.mesh.view())).value();
     cpu::Detector detector =
         std::move(cpu::Detector::create({.threads = threads,
                                          .boundary = scene.rangeTest ? Boundary::Range : Boundary::Clamp,
-                                         .stopAtFirst = stopAtFirst}))
+                                         .stopAtFirst = stopAtFirst,
+                                         .outputs = outputs}))
             .value();
     const cpu::BatchItem item{&mesh, &volume, &function, scene.poses};
     const Result<BatchAnswer> answer = detector.detect({std::span(&item, 1), scene.view, scene.threshold});
@@ -104,6 +106,36 @@ TEST(Agreement, AFarCornerMakesNoSurvivors) {
         EXPECT_EQ(engineCounts(scene, 1), std::vector<std::uint64_t>{0}) << far;
         EXPECT_EQ(engineCounts(scene, 1, true), std::vector<std::uint64_t>{0}) << far;
         EXPECT_EQ(survivorsOf(scene.reference()), std::vector<std::uint64_t>{0}) << far;
+    }
+}
+
+/// Behind the volume, or before it, in a view so deep that nothing is clipped: what is interpolated between a far
+/// corner and two that are hardly beyond may be in it.
+TEST(Agreement, WhatIsBeyondTheVolumeHasNoSurvivors) {
+    RandomScene scene;
+    scene.volume = makeBytes(unitGrid(8, 8, 8), [](auto...) { return 255.0; });
+    scene.points.assign(byteRamp().begin(), byteRamp().end());
+    scene.domain = {0, 255};
+    scene.view = flatView(0, 1, 64, 64);
+    scene.view.clip_from_world[10] = 1e-10;
+    scene.poses = {identity()};
+    scene.mesh.indices = {0, 1, 2};
+    const auto place = [](int pixel) { return (static_cast<float>(pixel) + 0.5F) / 64; };
+    for (const int last : {60, 14}) { // large, and small
+        // The edge between the near corners goes through the centres of pixels; either is a top edge of one view.
+        for (const auto& [nearRow, farRow] : {std::pair(3, last), std::pair(last, 3)}) {
+            for (float far = 100; far < 4e9F; far *= 1.7F) {
+                for (const auto& [near, farthest] : {std::pair(1.01F, far), std::pair(-0.01F, -far)}) {
+                    scene.mesh.positions = {place(3), place(farRow), farthest,       place(3), place(nearRow),
+                                            near,     place(last),   place(nearRow), near};
+                    EXPECT_EQ(engineCounts(scene, 1), std::vector<std::uint64_t>{0}) << last << ", " << farthest;
+                    EXPECT_EQ(engineCounts(scene, 1, false, {.triangles = true}), std::vector<std::uint64_t>{0})
+                        << last << ", " << farthest;
+                    EXPECT_EQ(survivorsOf(scene.reference()), std::vector<std::uint64_t>{0})
+                        << last << ", " << farthest;
+                }
+            }
+        }
     }
 }
 
