@@ -56,7 +56,9 @@ class Hashes:
 
     def of(self, path):
         if path not in self.known:
-            self.known[path] = hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else "none"
+            # What CMake writes names files of the checkout, which may be anywhere.
+            text = path.read_bytes().replace(f"{ROOT}/".encode(), b"") if path.is_file() else None
+            self.known[path] = "none" if text is None else hashlib.sha256(text).hexdigest()
         return self.known[path]
 
 
