@@ -6,7 +6,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
+#ifndef DOUBLES // with them it is small anyway
 #define SMALL_PROGRAM
+#endif
 #include "motion_words.h"
 #include "pair_setup.h"
 #include "voxtact/device_results.h"

@@ -6,7 +6,10 @@
 
 #include "long.h"
 #include "precise.h"
+#include "wide.h"
+#ifdef __cplusplus
 #include "wide_integers.h"
+#endif
 
 #define OPERATION_FLOAT_ADD 0
 #define OPERATION_FLOAT_SUBTRACT 1
@@ -41,10 +44,17 @@
 #define OPERATION_LONG_DIFFERENCE 30
 #define OPERATION_LONG_SIGN 31
 #define OPERATION_LONG_TO_FLOAT 32
+// Of double precision, as shaders/wide.h makes it: by integers, or with DOUBLES by the device's own.
+#define OPERATION_WIDE_ADD 33
+#define OPERATION_WIDE_SUBTRACT 34
+#define OPERATION_WIDE_MULTIPLY 35
+#define OPERATION_WIDE_COMPARE 36
+#define OPERATION_WIDE_TO_FLOAT 37
+#define OPERATION_WIDE_OF_FLOAT 38
 /// How many there are.
-#define OPERATION_COUNT 33
+#define OPERATION_COUNT 39
 /// The one behind them: what lanes do together. Its results are those of a work group, OPERATION_GROUP_WORDS each.
-#define OPERATION_GROUP 33
+#define OPERATION_GROUP 39
 #define OPERATION_GROUP_WORDS 3
 
 /// Inputs of an operation, in words, and its results.
@@ -65,6 +75,11 @@ inline float floatOf(uint bits) {
 inline uint bitsOf(float value) {
     return std::bit_cast<uint>(value);
 }
+inline void wordsOf(Wide value, uint& low, uint& high) {
+    const auto bits = std::bit_cast<std::uint64_t>(value);
+    low = static_cast<uint>(bits);
+    high = static_cast<uint>(bits >> 32U);
+}
 using integers::umulExtended;
 using integers::wideLeadingZeros;
 #else
@@ -72,6 +87,16 @@ using integers::wideLeadingZeros;
 #define intAsUint uint
 #define floatOf uintBitsToFloat
 #define bitsOf floatBitsToUint
+void wordsOf(Wide value, out uint low, out uint high) {
+#ifdef DOUBLES
+    const uvec2 words = unpackDouble2x32(value);
+    low = words.x;
+    high = words.y;
+#else
+    low = value.low;
+    high = value.high;
+#endif
+}
 #endif
 
 /// Push constants of operations.comp.
@@ -133,6 +158,36 @@ EXACT bool operationOnFloats(int operation, float a, float b, float c, OUT(uint)
         return false;
     }
     low = bitsOf(value);
+    return true;
+}
+
+/// The same of double precision, that is neither huge nor tiny.
+EXACT Wide operationWide(uint high, uint low) {
+    return wideBits((high & 0x800fffffu) | ((((high >> 20) & 63u) + 992u) << 20), low);
+}
+
+/// Operations of double precision, on a and b, and on c and d; false: it is none of them.
+EXACT bool operationOnWides(int operation, uint a, uint b, uint c, uint d, OUT(uint) low, OUT(uint) high) {
+    low = 0u;
+    high = 0u;
+    const Wide left = operationWide(a, b);
+    const Wide right = operationWide(c, d);
+    if (operation == OPERATION_WIDE_ADD) {
+        wordsOf(wideAdd(left, right), low, high);
+    } else if (operation == OPERATION_WIDE_SUBTRACT) {
+        wordsOf(wideSubtract(left, right), low, high);
+    } else if (operation == OPERATION_WIDE_MULTIPLY) {
+        wordsOf(wideMultiply(left, right), low, high);
+    } else if (operation == OPERATION_WIDE_COMPARE) {
+        low = (wideLess(left, right) ? 1u : 0u) | (wideAtLeast(left, right) ? 2u : 0u);
+        high = wideLess(wideAbs(left), wideAbs(right)) ? 1u : 0u;
+    } else if (operation == OPERATION_WIDE_TO_FLOAT) {
+        low = wideToFloatBits(left);
+    } else if (operation == OPERATION_WIDE_OF_FLOAT) {
+        wordsOf(wideOfFloatBits(bitsOf(operationModerate(a))), low, high);
+    } else {
+        return false;
+    }
     return true;
 }
 
@@ -216,7 +271,7 @@ EXACT void operate(int operation, uint a, uint b, uint c, uint d, OUT(uint) low,
     const float left = special ? floatOf(a) : operationModerate(a);
     const float right = special ? floatOf(b) : operationModerate(b);
     if (!operationOnFloats(operation, left, right, operationModerate(c), low, high) &&
-        !operationOnWords(operation, a, b, low, high)) {
+        !operationOnWords(operation, a, b, low, high) && !operationOnWides(operation, a, b, c, d, low, high)) {
         operationOnLongs(operation, a, b, c, d, low, high);
     }
 }

@@ -4,7 +4,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
+#ifndef DOUBLES // with them it is small anyway
 #define SMALL_PROGRAM
+#endif
 #include "shared.h"
 #include "voxtact/device_results.h"
 #include "pair_setup.h"
@@ -30,11 +32,25 @@ layout(push_constant) uniform Constants { PairSetupConstants constants; };
 
 #include "exact_language.h"
 
+/// A pose as it lies in the buffer.
+struct PoseBits {
+    uint word[16];
+};
+
+/// All of it at once, not one element after the other: mapped memory is a microsecond away from a GPU.
+PoseBits poseBits(uint at) {
+    PoseBits pose;
+    for (uint i = 0; i < 16; ++i) {
+        pose.word[i] = poses[at + i];
+    }
+    return pose;
+}
+
 /// Whether all of a pose is finite, and its last row that of an affine map.
-bool isUsable(uint at) {
+bool isUsable(PoseBits pose) {
     bool usable = true;
     ROLLED for (uint i = 0; i < 16; ++i) {
-        const uint bits = poses[at + i];
+        const uint bits = pose.word[i];
         usable = usable && (bits & 0x7f800000u) != 0x7f800000u;
         if (i % 4 == 3) {
             usable = usable && (i == 15 ? bits == 0x3f800000u : (bits & 0x7fffffffu) == 0u);
@@ -43,12 +59,12 @@ bool isUsable(uint at) {
     return usable;
 }
 
-WideMatrix poseAt(uint at) {
-    WideMatrix pose;
+WideMatrix matrixOf(PoseBits pose) {
+    WideMatrix matrix;
     ROLLED for (int i = 0; i < 16; ++i) {
-        pose.element[i] = wideOfFloatBits(poses[at + i]);
+        matrix.element[i] = wideOfFloatBits(pose.word[i]);
     }
-    return pose;
+    return matrix;
 }
 
 #ifdef CERTIFIED
@@ -66,9 +82,9 @@ CertifiedPair nowhere() {
     return pair;
 }
 
-void setUp(uint pair, uint at, bool usable) {
+void setUp(uint pair, PoseBits pose, bool usable) {
     if (usable) {
-        transforms[pair] = certifiedPairOf(gridAt(constants.setupWord), poseAt(at));
+        transforms[pair] = certifiedPairOf(gridAt(constants.setupWord), matrixOf(pose));
     } else {
         transforms[pair] = nowhere();
     }
@@ -86,12 +102,12 @@ PairTransform nowhere() {
     return transform;
 }
 
-void setUp(uint pair, uint at, bool usable) {
+void setUp(uint pair, PoseBits pose, bool usable) {
     ROLLED for (uint view = 0; view < constants.views; ++view) {
         const uint number = pair * constants.views + view;
         if (usable) {
             const WideMatrix clip_from_world = matrixAt(constants.setupWord + 32 + 32 * view);
-            transforms[number] = pairTransformOf(clip_from_world, matrixAt(constants.setupWord), poseAt(at));
+            transforms[number] = pairTransformOf(clip_from_world, matrixAt(constants.setupWord), matrixOf(pose));
         } else {
             transforms[number] = nowhere();
         }
@@ -107,9 +123,9 @@ void main() {
         return;
     }
     const uint pair = constants.firstPair + i;
-    const uint at = constants.poseWord + constants.poseWords * i;
-    const bool usable = isUsable(at);
+    const PoseBits pose = poseBits(constants.poseWord + constants.poseWords * i);
+    const bool usable = isUsable(pose);
     results[pair] = PairResult(0, 0, pair, constants.item, constants.firstPose + i,
                                usable ? constants.how : constants.refused);
-    setUp(pair, at, usable);
+    setUp(pair, pose, usable);
 }

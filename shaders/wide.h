@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Numbers of double precision, the same bits in C++, where they are `double`, and in GLSL, where integers make them.
+// Numbers of double precision, the same bits in C++, where they are `double`, and in GLSL, where integers make them or,
+// with DOUBLES, the device has them.
 #ifndef VOXTACT_WIDE_H
 #define VOXTACT_WIDE_H
 
@@ -49,7 +50,11 @@ inline float wideFloatOf(uint bits) {
 
 } // namespace voxtact::shader
 #else
+#ifdef DOUBLES
+#include "wide_doubles.glsl"
+#else
 #include "wide_integers.h"
+#endif
 #define wideFloatOf uintBitsToFloat
 #endif
 

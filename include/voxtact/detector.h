@@ -144,12 +144,14 @@ struct ResultsDesc {
     std::uint32_t queueFamily = 0; ///< with timestamps: of the queue that will execute; refused where it has none
     std::optional<OutputRoom> room = std::nullopt; ///< nothing: for detectors without outputs
     /// Clusters of 64 triangles, once a pair, that a dispatch of the projection conservative looks at, at most; a
-    /// batch of more is more dispatches. For each, one looks at 2^16 bricks and cells of large triangles at most; but a
-    /// cluster of one pair is never cut, and of a mesh of which the host knows no vertex (wrapped, or after
-    /// Mesh::cmdCopy()) only the clusters are bounded. No answer depends on it. 16 to 16384, as many as a GPU can do
-    /// before its driver takes it for stuck; each takes 720 bytes of device memory. 0: none, for Results for other
-    /// projections. Nothing: by maxPairs, 2048 to 16384, fewer where the device's maxStorageBufferRange has no room for
-    /// so many.
+    /// batch of more is more dispatches. For each, one looks at 2^16 bricks and cells of large triangles at most, and
+    /// for all together at 2^30; but a cluster of one pair is never cut, and of a mesh of which the host knows no
+    /// vertex (wrapped, or after Mesh::cmdCopy()) only the clusters are bounded. No answer depends on it. 16 to 262144,
+    /// as many as a GPU can do before its driver takes it for stuck; each takes 720 bytes of device memory. 0: none,
+    /// for Results for other projections. Nothing: by maxPairs, 2048 to 16384, or more where the device's
+    /// maxComputeWorkGroupCount allows for it and the queues take no more than a 128th of its memory. In any case fewer
+    /// where its maxComputeWorkGroupCount (16384 for each 65535 along x) or maxStorageBufferRange has no room for so
+    /// many.
     std::optional<std::uint32_t> clustersAtOnce = std::nullopt;
     /// For detectors with DetectorDesc::clearance: 68 bytes of device memory a pair, 16 of the host's where there is a
     /// copy, and 648 bytes more for each of clustersAtOnce. They take the queues of the projection conservative.
@@ -164,6 +166,12 @@ struct ResultsDesc {
     /// For detectors with DetectorDesc::motion: 1308 bytes of device memory a pair, 32 of the host's where there is a
     /// copy, and 648 bytes more for each of clustersAtOnce.
     bool motions = false;
+    /// What the host makes of poses goes through mapped memory of the Results, 248 bytes a pair, in place of the
+    /// command buffer. Recording a batch of thousands of pairs then takes a fraction of the time with drivers that are
+    /// slow to write into command buffers, as NVIDIA's is. In exchange a batch may be recorded only when the submission
+    /// of the one before it has completed, which is then not submitted again; a ring has Results for each frame in
+    /// flight. Poses on the device need none of it.
+    bool staged = false;
     /// Where the PairResults go: a part of a buffer of the caller's, of at least maxPairs * sizeof(PairResult) bytes,
     /// with the usage STORAGE_BUFFER | TRANSFER_SRC | TRANSFER_DST. The offset is a multiple of 8 and of the device's
     /// minStorageBufferOffsetAlignment. It outlives the Results and what was recorded with them; what else lies in the

@@ -153,7 +153,7 @@ typedef struct vxt_results_desc {
     uint32_t read_back;     ///< a host copy is kept, for vxt_results_read(); default 1
     uint32_t timestamps;    ///< the device time is measured; default 0
     uint32_t queue_family;  ///< with timestamps: of the queue that will execute; default 0
-    /// CONSERVATIVE: clusters that a dispatch looks at, at most, 16 to 16384: voxtact::ResultsDesc::clustersAtOnce.
+    /// CONSERVATIVE: clusters that a dispatch looks at, at most, 16 to 262144: voxtact::ResultsDesc::clustersAtOnce.
     /// Default 0: by max_pairs. VXT_NO_CLUSTERS: none, for results that are for other projections.
     uint32_t clusters_at_once;
     uint32_t clearances; ///< not 0: there is room for vxt_detector_desc::clearance_tolerance; default 0
@@ -163,7 +163,7 @@ typedef struct vxt_results_desc {
     uint32_t closest;          ///< not 0, with clearances: there is room for vxt_detector_desc::closest; default 0
     uint32_t label_clearances; ///< with clearances: labels that there is room for with each of max_pairs; default 0
     uint32_t motions;          ///< not 0: there is room for vxt_detector_desc::motion_resolution; default 0
-    uint32_t reserved;         ///< 0
+    uint32_t staged;           ///< not 0: voxtact::ResultsDesc::staged, with what it asks of the caller; default 0
 } vxt_results_desc;
 
 /// From the answers of one frame of a ring to those of the next in vxt_results_desc::into: voxtact::resultBytes().

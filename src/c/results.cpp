@@ -23,6 +23,7 @@ ResultsDesc toDesc(const vxt_results_desc* given) {
                     .closest = desc.closest != 0,
                     .labelClearances = desc.label_clearances,
                     .motions = desc.motions != 0,
+                    .staged = desc.staged != 0,
                     .into = {desc.into.buffer, desc.into.offset, desc.into.size}};
     if (desc.clusters_at_once != 0) {
         out.clustersAtOnce = desc.clusters_at_once == VXT_NO_CLUSTERS ? 0 : desc.clusters_at_once;

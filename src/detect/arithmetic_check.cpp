@@ -9,6 +9,7 @@
 #include "operations.h"
 #include "voxtact/scene.h"
 #include "voxtact_shaders/operations_comp.h"
+#include "voxtact_shaders/operations_doubles_comp.h"
 
 #include <algorithm>
 #include <array>
@@ -61,7 +62,13 @@ constexpr std::array<const char*, OPERATION_COUNT> kNames{"float addition",
                                                           "64-bit addition",
                                                           "64-bit subtraction",
                                                           "the sign of a 64-bit integer",
-                                                          "64-bit integer to float"};
+                                                          "64-bit integer to float",
+                                                          "double addition",
+                                                          "double subtraction",
+                                                          "double multiplication",
+                                                          "double comparison",
+                                                          "double to float",
+                                                          "float to double"};
 
 float asFloat(std::uint32_t word) {
     return std::bit_cast<float>(word);
@@ -148,7 +155,9 @@ Result<Bench> Bench::create(const Context& context, const QueueAccess& queue, st
     VOXTACT_TRY(submitter);
     Bench out(impl, std::move(*submitter), groups);
     Result<Owned<VkPipeline>> pipeline =
-        makeComputePipeline(impl, spirv::operations_comp, {}, impl.computeLayout, "arithmetic self-test");
+        impl.floatControls.doubles
+            ? makeComputePipeline(impl, spirv::operations_doubles_comp, {}, impl.computeLayout, "arithmetic self-test")
+            : makeComputePipeline(impl, spirv::operations_comp, {}, impl.computeLayout, "arithmetic self-test");
     VOXTACT_TRY(pipeline);
     out.pipeline_ = std::move(*pipeline);
     Result<Buffer> inputs = makeBuffer(impl, std::size_t{out.sets()} * OPERATION_INPUTS * sizeof(std::uint32_t),

@@ -22,9 +22,10 @@ inline constexpr std::uint32_t kArithmeticGroups = 1563;
 
 /// Does every operation of shaders/operations.h on the device, on 64 inputs for each of `groups` (not 0), most of them
 /// random, and compares the results with the host's bit for bit: 32-bit floats (rounding, no contraction, no
-/// reassociation, NaN and infinities where the device promises them), conversions, integers of 32 bits and of two
-/// words, additions in shared memory, and the texels of every type of voxels that the device takes. Denormals are left
-/// out: nothing rests on them. Blocks. Needs what the counting method `compute` needs.
+/// reassociation, NaN and infinities where the device promises them), conversions, doubles as the device has them or
+/// as integers make them, integers of 32 bits and of two words, additions in shared memory, and the texels of every
+/// type of voxels that the device takes. Denormals are left out: nothing rests on them. Blocks. Needs what the counting
+/// method `compute` needs.
 [[nodiscard]] Result<ArithmeticVerdict> checkArithmetic(const Context& context, const QueueAccess& queue,
                                                         std::uint32_t groups = kArithmeticGroups);
 

@@ -97,6 +97,7 @@ Result<BlockingDetector> BlockingDetector::create(const Context& context, const 
         resultsDesc.clearances = desc.clearance.has_value();
         resultsDesc.closest = desc.closest;
         resultsDesc.motions = desc.motion.has_value();
+        resultsDesc.staged = true; // each submission is waited for
         if (desc.outputs.any()) {
             resultsDesc.room = OutputRoom{.contacts = desc.outputs.contacts ? mostContacts : 0};
         }

@@ -227,6 +227,19 @@ Result<void> checkPass(const AnyPass& any, const Batch& batch) {
         any);
 }
 
+/// Rounds of the projection conservative.
+std::uint32_t roundsOf(const AnyPass& any, const Batch& batch, const ResultsImpl& results) {
+    return std::visit(
+        [&](const auto& pass) -> std::uint32_t {
+            if constexpr (requires { pass.rounds(batch, results); }) {
+                return pass.rounds(batch, results);
+            } else {
+                return 0;
+            }
+        },
+        any);
+}
+
 template <class Pass>
 Result<std::unique_ptr<DetectorImpl>> withPass(ContextImpl& context, const DetectorDesc& desc, Result<Pass> pass) {
     VOXTACT_TRY(pass);
@@ -328,7 +341,8 @@ Result<void> Detector::cmdDetect(VkCommandBuffer commandBuffer, const Batch& bat
         if (*pairs == 0) {
             return {};
         }
-        prepareResults(context, commandBuffer, batch, slot, live(impl_).desc, live(impl_).setup);
+        VOXTACT_TRY(prepareResults(context, commandBuffer, batch, slot, live(impl_).desc, live(impl_).setup,
+                                   roundsOf(live(impl_).pass, batch, slot)));
         std::visit(
             [&](const auto& pass) {
                 pass.record(commandBuffer, batch, slot,

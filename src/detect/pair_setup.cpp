@@ -13,7 +13,9 @@
 #include "pair_setup.h"
 
 #include "voxtact_shaders/pair_setup_certified_comp.h"
+#include "voxtact_shaders/pair_setup_certified_doubles_comp.h"
 #include "voxtact_shaders/pair_setup_comp.h"
+#include "voxtact_shaders/pair_setup_doubles_comp.h"
 
 #include <algorithm>
 #include <array>
@@ -109,10 +111,13 @@ Result<void> makeSetupSet(ResultsImpl& results) {
 Result<PairSetup> PairSetup::create(ContextImpl& context, const DetectorDesc& desc) {
     const Result<VkPipelineLayout> layout = setupLayout(context);
     VOXTACT_TRY(layout);
-    const auto spirv = rowOf(desc.projection).certified
-                           ? std::span<const std::uint32_t>(spirv::pair_setup_certified_comp)
-                           : std::span<const std::uint32_t>(spirv::pair_setup_comp);
-    const Result<VkPipeline> pipeline = computePipeline(context, spirv, {}, *layout, "pair set-up");
+    using Words = std::span<const std::uint32_t>;
+    const bool doubles = context.floatControls.doubles;
+    const Words certified =
+        doubles ? Words(spirv::pair_setup_certified_doubles_comp) : Words(spirv::pair_setup_certified_comp);
+    const Words others = doubles ? Words(spirv::pair_setup_doubles_comp) : Words(spirv::pair_setup_comp);
+    const Result<VkPipeline> pipeline =
+        computePipeline(context, rowOf(desc.projection).certified ? certified : others, {}, *layout, "pair set-up");
     VOXTACT_TRY(pipeline);
     return PairSetup(context, desc, *pipeline);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "detect/recording.h"
+#include "core/base/try.h"
 #include "core/geometry/projection.h"
 #include "core/method/certified_constants.h"
 #include "core/method/method_table.h"
@@ -14,6 +15,9 @@
 namespace voxtact {
 
 namespace {
+
+/// Of fewer pairs the command buffer has what they need: it is small, and a copy of its own takes longer.
+constexpr std::uint32_t kFewestStaged = 64;
 
 static_assert(sizeof(shader::CertifiedPair) <= kMostTransformsPerPair * sizeof(shader::PairTransform));
 
@@ -47,9 +51,9 @@ template <class Pair, class Skip> void eachHostPair(const Batch& batch, const Pa
 
 /// The transforms that the vertex shader reads.
 void recordTransforms(const ContextImpl& context, VkCommandBuffer commandBuffer, const Batch& batch,
-                      const ResultsImpl& results, Projection projection) {
+                      const ResultsImpl& results, Projection projection, Staging& staging) {
     const Cameras cameras(projection, batch.view);
-    BufferUpdate<shader::PairTransform> update(context, commandBuffer, results.transforms.get());
+    BufferUpdate<shader::PairTransform> update(context, commandBuffer, results.transforms.get(), 0, &staging);
     eachHostPair(
         batch,
         [&](const BatchItem& item, std::uint32_t, std::uint32_t pose, std::uint32_t) {
@@ -64,8 +68,8 @@ void recordTransforms(const ContextImpl& context, VkCommandBuffer commandBuffer,
 
 /// The same for the projection conservative.
 void recordCertifiedPairs(const ContextImpl& context, VkCommandBuffer commandBuffer, const Batch& batch,
-                          const ResultsImpl& results) {
-    BufferUpdate<shader::CertifiedPair> update(context, commandBuffer, results.transforms.get());
+                          const ResultsImpl& results, Staging& staging) {
+    BufferUpdate<shader::CertifiedPair> update(context, commandBuffer, results.transforms.get(), 0, &staging);
     eachHostPair(
         batch,
         [&](const BatchItem& item, std::uint32_t, std::uint32_t pose, std::uint32_t) {
@@ -73,13 +77,12 @@ void recordCertifiedPairs(const ContextImpl& context, VkCommandBuffer commandBuf
         },
         [&](std::size_t pairs) { update.skip(pairs); });
     update.finish();
-    recordQueueHeaders(context, commandBuffer, results);
 }
 
 /// Results with a count of zero that say which pair they are.
 void recordEmptyResults(const ContextImpl& context, VkCommandBuffer commandBuffer, const Batch& batch,
-                        const ResultsImpl& results, std::uint32_t how) {
-    BufferUpdate<PairResult> update(context, commandBuffer, results.results.buffer, results.results.offset);
+                        const ResultsImpl& results, std::uint32_t how, Staging& staging) {
+    BufferUpdate<PairResult> update(context, commandBuffer, results.results.buffer, results.results.offset, &staging);
     eachHostPair(
         batch,
         [&](const BatchItem&, std::uint32_t item, std::uint32_t pose, std::uint32_t pair) {
@@ -117,8 +120,13 @@ std::uint32_t transformsPerPair(Projection projection) noexcept {
     return rowOf(projection).certified ? kMostTransformsPerPair : viewsPerPair(projection);
 }
 
-void prepareResults(const ContextImpl& context, VkCommandBuffer commandBuffer, const Batch& batch,
-                    const ResultsImpl& results, const DetectorDesc& desc, const std::optional<PairSetup>& setup) {
+Result<void> prepareResults(const ContextImpl& context, VkCommandBuffer commandBuffer, const Batch& batch,
+                            const ResultsImpl& results, const DetectorDesc& desc, const std::optional<PairSetup>& setup,
+                            std::uint32_t rounds) {
+    Staging staging;
+    if (results.staging.buffer && results.pairs >= kFewestStaged) {
+        staging.buffer = &results.staging;
+    }
     if (results.timestamps) {
         context.vk.CmdResetQueryPool(commandBuffer, results.timestamps.get(), 0, 2);
     }
@@ -128,7 +136,8 @@ void prepareResults(const ContextImpl& context, VkCommandBuffer commandBuffer, c
             VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
             VK_ACCESS_2_TRANSFER_WRITE_BIT);
     if (rowOf(desc.projection).certified) {
-        recordCertifiedPairs(context, commandBuffer, batch, results);
+        recordCertifiedPairs(context, commandBuffer, batch, results, staging);
+        recordQueueHeaders(context, commandBuffer, results, rounds);
         if (desc.counters) {
             recordNoCounters(context, commandBuffer, results);
         }
@@ -142,9 +151,12 @@ void prepareResults(const ContextImpl& context, VkCommandBuffer commandBuffer, c
             recordMotions(context, commandBuffer, batch, results, *desc.motion);
         }
     } else {
-        recordTransforms(context, commandBuffer, batch, results, desc.projection);
+        recordTransforms(context, commandBuffer, batch, results, desc.projection, staging);
     }
-    recordEmptyResults(context, commandBuffer, batch, results, howOf(desc));
+    recordEmptyResults(context, commandBuffer, batch, results, howOf(desc), staging);
+    if (staging.used > 0) {
+        VOXTACT_TRY(flush(results.context, results.staging));
+    }
     if (desc.outputs.any()) {
         recordOutputs(context, commandBuffer, batch, *results.outputs);
     }
@@ -154,7 +166,7 @@ void prepareResults(const ContextImpl& context, VkCommandBuffer commandBuffer, c
     if (!setup || !hasDevicePoses(batch)) {
         barrierToShaders(context, commandBuffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                          desc);
-        return;
+        return {};
     }
     setup->recordItems(commandBuffer, batch, results);
     barrier(context, commandBuffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
@@ -164,6 +176,7 @@ void prepareResults(const ContextImpl& context, VkCommandBuffer commandBuffer, c
     barrierToShaders(context, commandBuffer,
                      VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                      VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, desc);
+    return {};
 }
 
 void publishResults(const ContextImpl& context, VkCommandBuffer commandBuffer, const ResultsImpl& results,

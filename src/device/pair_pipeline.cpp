@@ -245,7 +245,8 @@ Result<PairPipeline> PairPipeline::create(const VulkanDevice& device, const Cont
                               .clustersAtOnce = certified ? std::nullopt : std::optional(0U),
                               .clearances = detector.desc().clearance.has_value(),
                               .closest = detector.desc().closest,
-                              .labelClearances = how.labels};
+                              .labelClearances = how.labels,
+                              .staged = true};
     Result<ResultRing> ring = ResultRing::create(context, how.frames, results);
     VOXTACT_TRY(ring);
     auto state = std::make_unique<State>(device, detector, how, std::move(*ring));

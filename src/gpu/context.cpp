@@ -42,6 +42,7 @@ void readProperties(ContextImpl& context) {
     context.limits = properties.properties.limits;
     context.maxAllocation = maintenance3.maxMemoryAllocationSize;
     context.floatControls = readFloatControls(floats);
+    context.floatControls.doubles = context.floatControls.doubles && context.features.shaderFloat64;
     context.flushAfterQuery = driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE;
     context.endsLongLoops = driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE;
     context.vk.GetPhysicalDeviceMemoryProperties(context.physicalDevice, &context.memory);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gpu/float_controls.h"
 
+#include <array>
 #include <cstddef>
 
 namespace voxtact {
@@ -12,7 +13,7 @@ constexpr std::size_t kHeaderWords = 5;
 constexpr std::uint32_t kOpEntryPoint = 15;
 constexpr std::uint32_t kOpExecutionMode = 16;
 constexpr std::uint32_t kOpCapability = 17;
-constexpr std::uint32_t kFloatWidth = 32;
+constexpr std::uint32_t kFloat64 = 10;
 
 struct Control {
     bool FloatControls::*promised;
@@ -28,6 +29,17 @@ constexpr Control kControls[] = {
 
 constexpr std::uint32_t instruction(std::uint32_t words, std::uint32_t opcode) {
     return words << 16U | opcode;
+}
+
+/// The widths of the floats that a module has.
+std::span<const std::uint32_t> widthsOf(std::span<const std::uint32_t> spirv) {
+    static constexpr std::array<std::uint32_t, 2> kWidths{32, 64};
+    for (std::size_t at = kHeaderWords; at + 1 < spirv.size() && (spirv[at] & 0xffffU) == kOpCapability; at += 2) {
+        if (spirv[at + 1] == kFloat64) {
+            return kWidths;
+        }
+    }
+    return std::span(kWidths).first(1);
 }
 
 /// The entry points' identifiers, and the word behind the last of them, where execution modes may begin.
@@ -63,13 +75,17 @@ std::vector<std::uint32_t> withFloatControls(std::span<const std::uint32_t> spir
     }
     std::vector<std::uint32_t> capabilities;
     std::vector<std::uint32_t> modes;
+    const std::span<const std::uint32_t> widths = widthsOf(spirv);
     for (const Control& control : kControls) {
-        if (!(promised.*control.promised)) {
+        const bool ofDenormals = control.promised == &FloatControls::keepsDenormals;
+        if (!(promised.*control.promised) || (ofDenormals && widths.size() > 1)) {
             continue;
         }
         capabilities.insert(capabilities.end(), {instruction(2, kOpCapability), control.capability});
         for (const std::uint32_t id : entryPoints.ids) {
-            modes.insert(modes.end(), {instruction(4, kOpExecutionMode), id, control.executionMode, kFloatWidth});
+            for (const std::uint32_t width : widths) {
+                modes.insert(modes.end(), {instruction(4, kOpExecutionMode), id, control.executionMode, width});
+            }
         }
     }
     std::vector<std::uint32_t> out;

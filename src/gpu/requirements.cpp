@@ -23,6 +23,8 @@ constexpr std::array kRequirements{
     Requirement{
         "geometryShader", kCore, false,
         "no outputs beside the counts by the rasteriser, and no list of surviving fragments (gl_PrimitiveID needs it)"},
+    Requirement{"shaderFloat64", kCore, false,
+                "poses on the device, and steps of motions, take some 100 us longer: integers make the doubles"},
 };
 
 constexpr std::array kOptionalExtensions{VK_EXT_CONSERVATIVE_RASTERIZATION_EXTENSION_NAME};
@@ -140,8 +142,13 @@ std::span<const char* const> optionalDeviceExtensions() noexcept {
 }
 
 FloatControls readFloatControls(const VkPhysicalDeviceFloatControlsProperties& properties) noexcept {
-    return {on(properties.shaderSignedZeroInfNanPreserveFloat32), on(properties.shaderRoundingModeRTEFloat32),
-            on(properties.shaderDenormPreserveFloat32)};
+    FloatControls out{.keepsSpecials = on(properties.shaderSignedZeroInfNanPreserveFloat32),
+                      .roundsToNearest = on(properties.shaderRoundingModeRTEFloat32),
+                      .keepsDenormals = on(properties.shaderDenormPreserveFloat32)};
+    // Of both: a device need not be able to round one width in one way and the other in another.
+    out.doubles = out.keepsSpecials && out.roundsToNearest && on(properties.shaderSignedZeroInfNanPreserveFloat64) &&
+                  on(properties.shaderRoundingModeRTEFloat64);
+    return out;
 }
 
 const char* missingFloatControl(const FloatControls& floats) noexcept {
@@ -159,6 +166,7 @@ EnabledFeatures readFeatures(const VkPhysicalDeviceFeatures2* features) noexcept
     out.occlusionQueryPrecise = on(features->features.occlusionQueryPrecise);
     out.fragmentStoresAndAtomics = on(features->features.fragmentStoresAndAtomics);
     out.geometryShader = on(features->features.geometryShader);
+    out.shaderFloat64 = on(features->features.shaderFloat64);
     forEachStruct(features, [&](const VkBaseInStructure* next) {
         if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES) {
             const auto* all = reinterpret_cast<const VkPhysicalDeviceVulkan13Features*>(next);
@@ -196,14 +204,15 @@ FeatureRequest::FeatureRequest(const VkPhysicalDeviceFeatures2* supported) noexc
     features2.features.occlusionQueryPrecise = has.occlusionQueryPrecise ? VK_TRUE : VK_FALSE;
     features2.features.fragmentStoresAndAtomics = has.fragmentStoresAndAtomics ? VK_TRUE : VK_FALSE;
     features2.features.geometryShader = has.geometryShader ? VK_TRUE : VK_FALSE;
+    features2.features.shaderFloat64 = has.shaderFloat64 ? VK_TRUE : VK_FALSE;
 }
 
 CheckReport check(const ContextDesc& desc) {
     CheckReport report;
     checkHandles(desc, report);
     const EnabledFeatures enabled = readFeatures(desc.enabledFeatures);
-    const bool has[] = {enabled.dynamicRendering, enabled.synchronization2, enabled.occlusionQueryPrecise,
-                        enabled.fragmentStoresAndAtomics, enabled.geometryShader};
+    const bool has[] = {enabled.dynamicRendering,         enabled.synchronization2, enabled.occlusionQueryPrecise,
+                        enabled.fragmentStoresAndAtomics, enabled.geometryShader,   enabled.shaderFloat64};
     static_assert(std::size(has) == kRequirements.size());
     DeviceSupport device;
     if (desc.getInstanceProcAddr != nullptr && desc.instance != VK_NULL_HANDLE && desc.device != VK_NULL_HANDLE &&

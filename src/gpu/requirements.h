@@ -16,6 +16,7 @@ struct EnabledFeatures {
     bool occlusionQueryPrecise = false;
     bool fragmentStoresAndAtomics = false;
     bool geometryShader = false;
+    bool shaderFloat64 = false;
 };
 
 /// What no feature struct says.

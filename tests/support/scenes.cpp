@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/scenes.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -132,6 +133,13 @@ VolumeData moved(VolumeData volume, const Mat4& motion) {
     }
     volume.grid.direction = direction;
     return volume;
+}
+
+Mat4 floatPose(const Mat4& pose) {
+    Mat4 out{};
+    std::ranges::transform(pose, out.begin(),
+                           [](double element) { return static_cast<double>(static_cast<float>(element)); });
+    return out;
 }
 
 std::vector<Mat4> randomPoses(const Grid& grid, std::size_t count, double grow, std::mt19937_64& random) {

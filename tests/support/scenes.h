@@ -62,6 +62,8 @@ inline float drawn(std::mt19937_64& random, double lo, double hi) {
 }
 /// Random poses whose object origin is within `grow` times the box of the volume.
 std::vector<Mat4> randomPoses(const Grid& grid, std::size_t count, double grow, std::mt19937_64& random);
+/// A pose whose elements are floats, as one on a device.
+Mat4 floatPose(const Mat4& pose);
 /// Whether tests run in the long form: VOXTACT_TEST_LONG is set; ./run test --long.
 bool longTests();
 /// How many random cases a test takes: `whole` in the long form, otherwise a `part`-th of it.

@@ -5,6 +5,7 @@
 #include "voxtact_shaders/certified_finish_comp.h"
 #include "voxtact_shaders/compute_comp.h"
 #include "voxtact_shaders/dominant_vert.h"
+#include "voxtact_shaders/pair_setup_doubles_comp.h"
 #include "voxtact_shaders/view_frag.h"
 
 #include <gmock/gmock.h>
@@ -46,6 +47,17 @@ TEST(FloatControlsTest, NothingIsAskedForThatIsNotPromised) {
         EXPECT_EQ(withFloatControls(module, {}), Words(module.begin(), module.end()));
     }
     EXPECT_THAT(withFloatControls({}, kAll), IsEmpty());
+}
+
+/// Of both widths, where a module has both; denormals it does not mention then.
+TEST(FloatControlsTest, DoublesAskForTheSame) {
+    const std::span<const std::uint32_t> module = spirv::pair_setup_doubles_comp;
+    const Words out = withFloatControls(module, kAll);
+    std::vector<Words> modes = operandsOf(out, 16);
+    const std::uint32_t main = operandsOf(module, 15).at(0).at(1);
+    ASSERT_EQ(modes.size(), operandsOf(module, 16).size() + 4);
+    EXPECT_THAT(std::span(modes).first(4), ElementsAre(Words{main, 4461, 32}, Words{main, 4461, 64},
+                                                       Words{main, 4462, 32}, Words{main, 4462, 64}));
 }
 
 TEST(FloatControlsTest, EveryEntryPointAsksForWhatIs) {

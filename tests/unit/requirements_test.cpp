@@ -80,6 +80,7 @@ class RequirementsTest : public testing::Test {
         all.features.occlusionQueryPrecise = VK_TRUE;
         all.features.fragmentStoresAndAtomics = VK_TRUE;
         all.features.geometryShader = VK_TRUE;
+        all.features.shaderFloat64 = VK_TRUE;
         request_.emplace(&all);
         desc_.enabledFeatures = &request_->features2;
     }
@@ -100,9 +101,9 @@ TEST_F(RequirementsTest, EverythingThere) {
 TEST_F(RequirementsTest, AZeroDescriptionNamesEverything) {
     const CheckReport report = check({});
     EXPECT_FALSE(report.usable);
-    for (const char* what :
-         {"getInstanceProcAddr", "instance", "physicalDevice", "device", "enabledFeatures", "apiVersion",
-          "dynamicRendering", "synchronization2", "occlusionQueryPrecise", "fragmentStoresAndAtomics"}) {
+    for (const char* what : {"getInstanceProcAddr", "instance", "physicalDevice", "device", "enabledFeatures",
+                             "apiVersion", "dynamicRendering", "synchronization2", "occlusionQueryPrecise",
+                             "fragmentStoresAndAtomics", "shaderFloat64"}) {
         EXPECT_THAT(report.missing, Contains(HasSubstr(what)));
     }
     const Result<Context> context = Context::create({});

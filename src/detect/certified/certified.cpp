@@ -165,6 +165,18 @@ RoundCut CertifiedPass::cutOf(const BatchItem& item, std::uint32_t queueRoom) co
              .looks = looksOfRound(queueRoom)}};
 }
 
+std::uint32_t CertifiedPass::rounds(const Batch& batch, const ResultsImpl& results) const noexcept {
+    // Of many pairs it takes longer to count them than to have headers that are not used.
+    if (tolerance_ || clearance_ || motion_ || results.pairs > VOXTACT_HEADERS) {
+        return VOXTACT_HEADERS;
+    }
+    std::uint64_t rounds = 0;
+    for (const BatchItem& item : batch.items) {
+        rounds += roundsOf(cutOf(item, results.queueRoom), VOXTACT_HEADERS);
+    }
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(rounds, VOXTACT_HEADERS));
+}
+
 void CertifiedPass::record(VkCommandBuffer commandBuffer, const Batch& batch, const ResultsImpl& results) const {
     RoundRecorder recorder(*context_, commandBuffer, results, tally_);
     const std::vector<RoundPass> passes = passesOfRound();

@@ -26,6 +26,9 @@ class CertifiedPass {
     /// What a checked batch can still lack: bricks, a table that the host knows, a mesh that shaders can read.
     [[nodiscard]] Result<void> check(const Batch& batch) const;
 
+    /// How many rounds a checked batch has, at most; all that have headers where a search follows.
+    [[nodiscard]] std::uint32_t rounds(const Batch& batch, const ResultsImpl& results) const noexcept;
+
     /// Records the dispatches of a checked batch. Expects the transforms, queue headers and results of `results` ready
     /// for the compute stage. `boundaryOf` is not asked: points outside the domain never count.
     template <class BoundaryOf>

@@ -83,19 +83,40 @@ VkDeviceSize bytesFromQueues(std::uint32_t room, const ResultsDesc& parts) noexc
            labelBytes(parts.maxPairs, parts.labelClearances);
 }
 
-std::uint32_t queueRoomFor(const ResultsDesc& desc, VkDeviceSize bytes, VkDeviceSize first) noexcept {
+RoomLimits roomLimits(const VkPhysicalDeviceLimits& device, VkDeviceSize maxAllocation,
+                      const VkPhysicalDeviceMemoryProperties& memory) noexcept {
+    constexpr VkDeviceSize kShareOfMemory = 128;
+    constexpr std::uint32_t kLeastWorkGroups = 65535;
+    VkDeviceSize largest = 0;
+    for (const VkMemoryHeap& heap : std::span(memory.memoryHeaps).first(memory.memoryHeapCount)) {
+        largest = (heap.flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) != 0 ? std::max(largest, heap.size) : largest;
+    }
+    const std::uint32_t times =
+        std::clamp(device.maxComputeWorkGroupCount[0] / kLeastWorkGroups, 1U, kMostQueueRoom / kMostRoomAnywhere);
+    return {std::min<VkDeviceSize>(device.maxStorageBufferRange, maxAllocation), largest / kShareOfMemory,
+            kMostRoomAnywhere * times};
+}
+
+std::uint32_t queueRoomFor(const ResultsDesc& desc, const RoomLimits& limits, VkDeviceSize first) noexcept {
     constexpr std::uint32_t kClustersOfPair = 64;
     constexpr std::uint32_t kStep = 16; // shaders/shared.h
-    const std::uint32_t pairs = std::bit_ceil(std::min(desc.maxPairs, kMostQueueRoom / kClustersOfPair));
-    std::uint32_t room = desc.clustersAtOnce.value_or(std::max(kUsualQueueRoom, pairs * kClustersOfPair));
-    while (room > kLeastQueueRoom && first + bytesFromQueues(room, desc) > bytes) {
+    std::uint32_t room = std::min(desc.clustersAtOnce.value_or(0), limits.room);
+    if (!desc.clustersAtOnce) {
+        const std::uint32_t pairs = std::bit_ceil(std::min(desc.maxPairs, limits.room / kClustersOfPair));
+        room = std::max(kUsualQueueRoom, pairs * kClustersOfPair);
+        while (room > kMostRoomAnywhere && bytesFromQueues(room, desc) > limits.usualBytes) {
+            room /= 2;
+        }
+    }
+    while (room > kLeastQueueRoom && first + bytesFromQueues(room, desc) > limits.bytes) {
         room = std::max(room / 2, kLeastQueueRoom);
     }
-    const bool fits = room >= kLeastQueueRoom && first + bytesFromQueues(room, desc) <= bytes;
+    const bool fits = room >= kLeastQueueRoom && first + bytesFromQueues(room, desc) <= limits.bytes;
     return fits ? room / kStep * kStep : 0;
 }
 
-void recordQueueHeaders(const ContextImpl& context, VkCommandBuffer commandBuffer, const ResultsImpl& results) {
+void recordQueueHeaders(const ContextImpl& context, VkCommandBuffer commandBuffer, const ResultsImpl& results,
+                        std::uint32_t rounds) {
     std::array<std::uint32_t, VOXTACT_HEADERS * VOXTACT_HEADER_WORDS> words{};
     for (std::size_t round = 0; round < VOXTACT_HEADERS; ++round) {
         for (std::size_t queue = 0; queue < VOXTACT_QUEUES; ++queue) {
@@ -108,8 +129,9 @@ void recordQueueHeaders(const ContextImpl& context, VkCommandBuffer commandBuffe
         words[left + 1] = VOXTACT_LEFT_ROWS;
         words[left + 2] = 0;
     }
-    cmdUpdateBuffer(context, commandBuffer, results.transforms.get(), firstQueueByte(results),
-                    std::as_bytes(std::span(words)));
+    cmdUpdateBuffer(
+        context, commandBuffer, results.transforms.get(), firstQueueByte(results),
+        std::as_bytes(std::span(words).first(std::min<std::uint32_t>(rounds, VOXTACT_HEADERS) * VOXTACT_HEADER_WORDS)));
 }
 
 void recordNoClosest(const ContextImpl& context, VkCommandBuffer commandBuffer, const ResultsImpl& results) {

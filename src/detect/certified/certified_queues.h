@@ -9,11 +9,12 @@ namespace voxtact {
 /// Clusters of pairs that one round of the projection conservative has at most. Its queues have room for them, for 32
 /// cells for each of them, and so on: shaders/shared.h.
 inline constexpr std::uint32_t kLeastQueueRoom = 16;
-inline constexpr std::uint32_t kMostQueueRoom = 16384;
+inline constexpr std::uint32_t kMostQueueRoom = 262144;
+/// As many as any device can have: it has 65,535 work groups in a dispatch, and a pass has up to three a cluster.
+inline constexpr std::uint32_t kMostRoomAnywhere = 16384;
 /// What Results get that were not asked for another.
 inline constexpr std::uint32_t kUsualQueueRoom = 2048;
-static_assert(VOXTACT_ROOM_CELLS(kMostQueueRoom) / VOXTACT_COMPUTE_GROUP <= 65535,
-              "Vulkan's least maxComputeWorkGroupCount");
+static_assert(VOXTACT_MARGIN_ROOM_LARGE(kMostRoomAnywhere) <= 65535, "Vulkan's least maxComputeWorkGroupCount");
 
 /// Bytes for what PairSetup needs of items.
 inline constexpr VkDeviceSize kSetupBytes =
@@ -68,11 +69,23 @@ static_assert(sizeof(MotionResult) == VOXTACT_MOTION_RESULT_WORDS * sizeof(std::
 /// Bytes from the queues on, with room for so many clusters, of Results that have `parts`.
 [[nodiscard]] VkDeviceSize bytesFromQueues(std::uint32_t room, const ResultsDesc& parts) noexcept;
 
-/// The room for Results, in a buffer of at most `bytes`, of which the queues begin at `first`; 0 where it has none.
-[[nodiscard]] std::uint32_t queueRoomFor(const ResultsDesc& desc, VkDeviceSize bytes, VkDeviceSize first) noexcept;
+/// What a device allows for a room.
+struct RoomLimits {
+    VkDeviceSize bytes = 0;      ///< of the buffer that the queues are in
+    VkDeviceSize usualBytes = 0; ///< of the queues, where nobody asked for a room of more than kMostRoomAnywhere
+    std::uint32_t room = 0;      ///< by the work groups of a dispatch
+};
+/// `maxAllocation`: bytes of its largest allocation.
+[[nodiscard]] RoomLimits roomLimits(const VkPhysicalDeviceLimits& device, VkDeviceSize maxAllocation,
+                                    const VkPhysicalDeviceMemoryProperties& memory) noexcept;
 
-/// Records the headers of VOXTACT_HEADERS rounds: commands of no work groups, empty queues.
-void recordQueueHeaders(const ContextImpl& context, VkCommandBuffer commandBuffer, const ResultsImpl& results);
+/// The room for Results, in a buffer whose queues begin at `first`; 0 where it has none.
+[[nodiscard]] std::uint32_t queueRoomFor(const ResultsDesc& desc, const RoomLimits& limits,
+                                         VkDeviceSize first) noexcept;
+
+/// Records the headers of so many rounds, VOXTACT_HEADERS at most: commands of no work groups, empty queues.
+void recordQueueHeaders(const ContextImpl& context, VkCommandBuffer commandBuffer, const ResultsImpl& results,
+                        std::uint32_t rounds = VOXTACT_HEADERS);
 /// Records closest points that no pair has yet.
 void recordNoClosest(const ContextImpl& context, VkCommandBuffer commandBuffer, const ResultsImpl& results);
 /// Records counters of zero.

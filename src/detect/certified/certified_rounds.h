@@ -24,7 +24,8 @@ struct RoundLimits {
 }
 [[nodiscard]] constexpr double looksOfRound(std::uint32_t queueRoom) noexcept {
     constexpr double kLooksOfCluster = 65536;
-    return queueRoom * kLooksOfCluster;
+    constexpr double kMostLooks = 3.5e9; // with those at small triangles, counters of a round have 32 bits
+    return std::min(queueRoom * kLooksOfCluster, kMostLooks);
 }
 
 /// What an item asks for at most.
@@ -106,6 +107,17 @@ template <class Record> void eachRound(const RoundCut& cut, Record&& record) {
             record(Round{pair, std::min(atOnce, cut.mesh.pairs - pair), first, end});
         });
     }
+}
+
+/// How many rounds an item has; `most` where there are more.
+[[nodiscard]] inline std::uint64_t roundsOf(const RoundCut& cut, std::uint64_t most) noexcept {
+    if (cut.mesh.pairs == 0) {
+        return 0;
+    }
+    const std::uint64_t times = (cut.mesh.pairs - 1) / cut.pairsAtOnce() + std::uint64_t{1};
+    std::uint64_t rounds = 0;
+    eachClusterRound(cut, [&](std::uint32_t, std::uint32_t) { ++rounds; });
+    return std::min(rounds * times, most);
 }
 
 /// The most that a round has, of pairs and of the clusters of one.

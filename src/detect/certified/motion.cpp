@@ -19,6 +19,7 @@
 #include "voxtact_shaders/certified_motion_large_comp.h"
 #include "voxtact_shaders/certified_motion_refine_comp.h"
 #include "voxtact_shaders/certified_motion_step_comp.h"
+#include "voxtact_shaders/certified_motion_step_doubles_comp.h"
 
 #include <algorithm>
 #include <cmath>
@@ -134,7 +135,10 @@ Result<MotionPass> MotionPass::create(ContextImpl& context, const DetectorDesc& 
     Result<MarginPasses> look = MarginPasses::create(context, programs, constants, "motion");
     VOXTACT_TRY(look);
     const Result<VkPipeline> step =
-        computePipeline(context, spirv::certified_motion_step_comp, {}, context.computeLayout, "motion step");
+        context.floatControls.doubles
+            ? computePipeline(context, spirv::certified_motion_step_doubles_comp, {}, context.computeLayout,
+                              "motion step")
+            : computePipeline(context, spirv::certified_motion_step_comp, {}, context.computeLayout, "motion step");
     VOXTACT_TRY(step);
     return MotionPass(context, *desc.motion, *look, *step);
 }

@@ -32,8 +32,12 @@ Result<Owned<VkQueryPool>> makeQueryPool(ContextImpl& context, VkQueryType type,
         context, handle, [](ContextImpl& c, VkQueryPool pool) { c.vk.DestroyQueryPool(c.device, pool, c.allocator); });
 }
 
+RoomLimits limitsOf(const ContextImpl& context) {
+    return roomLimits(context.limits, context.maxAllocation, context.memory);
+}
+
 VkDeviceSize bytesFor(const ContextImpl& context) {
-    return std::min<VkDeviceSize>(context.limits.maxStorageBufferRange, context.maxAllocation);
+    return limitsOf(context).bytes;
 }
 
 /// For any projection, as far as the device has room for them, and for the least queues beside them.
@@ -163,6 +167,9 @@ Result<void> makeBuffers(ResultsImpl& out, const ResultsDesc& desc) {
         {ownResults, out.ownResults, bytes, kTo | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::Device, "pair results"},
         {desc.readBack, out.readBack, out.readBackBytes(), VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::ReadBack,
          "pair results on the host"},
+        {desc.staged, out.staging,
+         VkDeviceSize{out.maxPairs} * kMostTransformsPerPair * sizeof(shader::PairTransform) + bytes,
+         VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::Upload, "staged pairs"},
     };
     for (const Wanted& each : wanted) {
         if (!each.wanted) {
@@ -212,7 +219,7 @@ Result<std::unique_ptr<ResultsImpl>> makeResults(ContextImpl& context, const Res
     VOXTACT_TRY(checkDesc(context, desc));
     auto impl = std::make_unique<ResultsImpl>(ResultsImpl{.context = context, .maxPairs = desc.maxPairs});
     impl->maxTransforms = transformsFor(context, desc.maxPairs);
-    impl->queueRoom = queueRoomFor(desc, bytesFor(context), firstQueueByte(*impl));
+    impl->queueRoom = queueRoomFor(desc, limitsOf(context), firstQueueByte(*impl));
     VOXTACT_TRY(checkQueueRoom(context, *impl, desc));
     impl->clearances = desc.clearances && impl->queueRoom > 0;
     impl->closest = desc.closest && impl->clearances;

@@ -35,6 +35,7 @@ struct ResultsImpl {
     Buffer ownResults{};             ///< empty with ResultsDesc::into
     Buffer readBack{}; ///< the host's copy, CertifiedCounters, the number of it, ClearanceResults, ClosestResults,
                        ///< ClearanceResults of labels, MotionResults; empty when not asked for
+    Buffer staging{};  ///< ResultsDesc::staged: of maxPairs, the most that any projection has; else empty
     Owned<VkQueryPool> occlusion{};  ///< maxPairs queries
     Owned<VkQueryPool> timestamps{}; ///< two, or none
     DescriptorSet descriptors{};

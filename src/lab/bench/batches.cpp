@@ -41,12 +41,16 @@ void noteEnded(const BenchRun& run) {
     for (const Engine& engine : run.engines) {
         std::uint64_t largest = 0;
         for (const BenchRow& row : run.result.rows) {
-            const bool own = row.engine.name == engine.facts.name && row.engine.projection == engine.facts.projection;
+            const EngineFacts& facts = row.engine;
+            const bool own = facts.name == engine.facts.name && facts.projection == engine.facts.projection &&
+                             facts.question == engine.facts.question && facts.posesOn == engine.facts.posesOn;
             largest = own ? std::max(largest, row.pairs) : largest;
         }
         if (largest < run.settings.number) {
-            run.result.notes.push_back(engine.facts.name + " " + engine.facts.projection + ": batches of more than " +
-                                       std::to_string(largest) + (largest == 1 ? " pose" : " poses") +
+            run.result.notes.push_back(engine.facts.name + " " + engine.facts.projection + " " + engine.facts.question +
+                                       (engine.facts.posesOn == "device" ? ", poses on the device" : "") +
+                                       ": batches of more than " + std::to_string(largest) +
+                                       (largest == 1 ? " pose" : " poses") +
                                        " are left out, as they do not fit in --time-limit");
         }
     }
@@ -64,10 +68,10 @@ std::vector<std::uint32_t> batchSizes(std::uint32_t most) {
 }
 
 Result<void> benchBatches(const BenchRun& run) {
-    KnownPoses poses(
-        run,
-        randomPoses(run.work.volume->data.grid, run.work.mesh->data.view(), run.settings.number, run.settings.seed),
-        run.engines[0], run.engines[1]);
+    KnownPoses poses(run,
+                     asFloats(randomPoses(run.work.volume->data.grid, run.work.mesh->data.view(), run.settings.number,
+                                          run.settings.seed)),
+                     run.engines[0], run.engines[1]);
     // The largest batch, its warm-up and what is smaller: a ninth more.
     const double mostLearning = run.limit / 4;
     const double longest =

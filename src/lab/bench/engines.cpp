@@ -159,6 +159,12 @@ void addBatches(const BenchParts& parts, EngineList& engines) {
             engines.add(makeDeviceEngine(*parts.session, desc));
         }
     }
+    for (DetectorDesc desc : {computed[0], computed[2]}) {
+        desc.devicePoses = true;
+        if (can(parts.session, desc.method, desc.projection)) {
+            engines.add(makeBlockingEngine(*parts.session, desc));
+        }
+    }
 }
 
 } // namespace voxtact::lab

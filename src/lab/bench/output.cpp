@@ -52,7 +52,8 @@ void addTickColumns(const BenchRow& row, Row& out) {
 
 void addBatchColumns(const BenchRow& row, Row& out) {
     const double median = medianOf(row.wall);
-    out.add("batch", row.pairs)
+    out.addSome("poses_on", row.engine.posesOn)
+        .add("batch", row.pairs)
         .add("samples", row.wall.size())
         .add("rounding", row.rounding)
         .add("wall_ms", row.wall, {"_median", "_min", "_max"})

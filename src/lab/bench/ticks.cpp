@@ -34,18 +34,6 @@ Result<double> takeBlock(const BenchRun& run, KnownPoses& poses, const Engine& e
     return spent;
 }
 
-/// As floats, so that an engine whose pose is on the device is asked the same.
-Result<std::vector<Mat4>> makePoses(const BenchRun& run, const Engine& host) {
-    Result<std::vector<Mat4>> poses =
-        movingPoses(run.work.volume->data.grid, run.work.mesh->data.view(), run.settings.number + kLeadIn,
-                    run.settings.seed, touchesBy(host, run.work));
-    for (std::size_t i = 0; poses.ok() && i < poses->size(); ++i) {
-        std::ranges::transform((*poses)[i], (*poses)[i].begin(),
-                               [](double element) { return static_cast<double>(static_cast<float>(element)); });
-    }
-    return poses;
-}
-
 } // namespace
 
 std::uint32_t tickRounds(std::uint32_t ticks) {
@@ -57,9 +45,11 @@ Result<void> benchTicks(const BenchRun& run) {
     VOXTACT_TRY(certified);
     const MadeEngine view = makeHostEngine();
     VOXTACT_TRY(view);
-    Result<std::vector<Mat4>> all = makePoses(run, *certified);
+    Result<std::vector<Mat4>> all =
+        movingPoses(run.work.volume->data.grid, run.work.mesh->data.view(), run.settings.number + kLeadIn,
+                    run.settings.seed, touchesBy(*certified, run.work));
     VOXTACT_TRY(all);
-    KnownPoses poses(run, std::move(*all), *certified, *view);
+    KnownPoses poses(run, asFloats(std::move(*all)), *certified, *view);
     const double share = run.limit / static_cast<double>(run.engines.size());
     std::vector<Timed> things;
     for (const Engine& engine : run.engines) {

@@ -15,6 +15,7 @@ struct EngineFacts {
     bool sameCounts = false;   ///< must count as that one does
     std::string recorded{};    ///< of a submission a pose: "each tick", "once"; empty: nothing is
     std::string awaited{};     ///< of one: "polled", "waited"
+    std::string posesOn{};     ///< of a batch on the device: "host", "device"
 };
 
 /// Pairs to answer: a mesh at poses against a volume. The parts must be ready
@@ -104,8 +105,8 @@ template <class Desc>
 [[nodiscard]] MadeEngine makeHostEngine(const cpu::DetectorDesc& desc = {});
 /// A method of the device; what it is given must outlive it.
 [[nodiscard]] MadeEngine makeDeviceEngine(const device::Session& session, const DetectorDesc& desc);
-/// The same by the blocking convenience, all pairs in one submission, whatever
-/// the feeding.
+/// The same by the blocking convenience, all pairs in one submission, whatever the feeding. With
+/// DetectorDesc::devicePoses they are written to where the device reads them, as floats; that is part of its time.
 [[nodiscard]] MadeEngine makeBlockingEngine(const device::Session& session, const DetectorDesc& desc);
 /// How the host learns that the device is done.
 enum class Awaiting {

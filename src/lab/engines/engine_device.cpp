@@ -2,6 +2,7 @@
 #include "core/base/try.h"
 #include "device/pair_pipeline.h"
 #include "lab/engines/engine.h"
+#include "lab/engines/mapped_poses.h"
 #include "lab/measure/stopwatch.h"
 
 #include <map>
@@ -54,11 +55,40 @@ Result<Pass> runOnDevice(DevicePairs& pairs, const Work& work, const Feeding& fe
     return pass;
 }
 
-Result<Pass> runBlocking(BlockingDetector& detector, const Work& work, const Feeding& /*feeding*/) {
-    const BatchItem item = work.onDevice();
-    Result<BatchAnswer> answer = detector.detect({{&item, 1}, work.view, work.volume->threshold});
+struct BlockingPairs {
+    const device::Session& session;
+    BlockingDetector detector;
+    std::optional<MappedPoses> poses{}; ///< where the poses are on the device
+
+    /// Writes the poses of a work to where the device reads them.
+    Result<void> feed(BatchItem& item);
+};
+
+Result<void> BlockingPairs::feed(BatchItem& item) {
+    const auto count = static_cast<std::uint32_t>(item.world_from_object.size());
+    if (!poses || poses->poses().count() < count) {
+        Result<MappedPoses> larger = MappedPoses::create(session, count);
+        VOXTACT_TRY(larger);
+        poses.emplace(std::move(*larger));
+    }
+    VOXTACT_TRY(poses->write(item.world_from_object));
+    item.world_from_object = {};
+    item.poses = &poses->poses();
+    item.poseCount = count;
+    return {};
+}
+
+Result<Pass> runBlocking(BlockingPairs& pairs, const Work& work, const Feeding& /*feeding*/) {
+    BatchItem item = work.onDevice();
+    const Stopwatch watch;
+    if (pairs.detector.detector().desc().devicePoses) {
+        VOXTACT_TRY(pairs.feed(item));
+    }
+    Result<BatchAnswer> answer = pairs.detector.detect({{&item, 1}, work.view, work.volume->threshold});
+    const double wall = watch.milliseconds();
     VOXTACT_TRY(answer);
-    return Pass{.wallMilliseconds = answer->wallMilliseconds,
+    return Pass{.wallMilliseconds = wall,
+                .gpuMilliseconds = answer->gpuMilliseconds,
                 .pairs = std::move(answer->pairs),
                 .triangles = std::move(answer->triangles)};
 }
@@ -69,13 +99,16 @@ MadeEngine makeDeviceEngine(const device::Session& session, const DetectorDesc& 
     Result<Detector> detector = Detector::create(session.context, desc);
     VOXTACT_TRY(detector);
     EngineFacts facts = factsOf(detector->desc().method, detector->desc(), 0);
+    facts.posesOn = "host";
     return engineOf(std::move(facts), DevicePairs{session, std::move(*detector)}, runOnDevice);
 }
 
 MadeEngine makeBlockingEngine(const device::Session& session, const DetectorDesc& desc) {
     Result<BlockingDetector> detector = BlockingDetector::create(session.context, desc, session.device.queueAccess());
     VOXTACT_TRY(detector);
-    return engineOf(factsOf(desc.method, desc, 0), std::move(*detector), runBlocking);
+    EngineFacts facts = factsOf(desc.method, desc, 0);
+    facts.posesOn = desc.devicePoses ? "device" : "host";
+    return engineOf(std::move(facts), BlockingPairs{session, std::move(*detector)}, runBlocking);
 }
 
 } // namespace voxtact::lab

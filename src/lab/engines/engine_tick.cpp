@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/try.h"
 #include "device/timed_commands.h"
-#include "gpu/context_impl.h"
 #include "lab/engines/engine.h"
+#include "lab/engines/mapped_poses.h"
 #include "lab/measure/stopwatch.h"
-
-#include <algorithm>
-#include <array>
 
 namespace voxtact::lab {
 
@@ -14,33 +11,11 @@ namespace {
 
 using Use = device::TimedCommands::Use;
 
-/// A pose in mapped memory, where a command buffer that was recorded once reads it.
-struct MappedPose {
-    ContextImpl& context;
-    Buffer buffer;
-    PoseBuffer poses;
-
-    static Result<MappedPose> create(const device::Session& session) {
-        ContextImpl& context = session.context.impl();
-        Result<Buffer> buffer = makeBuffer(context, sizeof(std::array<float, 16>), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-                                           MemoryUse::Upload, "a pose");
-        VOXTACT_TRY(buffer);
-        Result<PoseBuffer> poses = PoseBuffer::wrap(session.context, {.buffer = buffer->get(), .count = 1});
-        VOXTACT_TRY(poses);
-        return MappedPose{context, std::move(*buffer), std::move(*poses)};
-    }
-    Result<void> write(const Mat4& pose) {
-        std::transform(pose.begin(), pose.end(), static_cast<float*>(buffer.mapped),
-                       [](double element) { return static_cast<float>(element); });
-        return flush(context, buffer);
-    }
-};
-
 /// What asks about a pair.
 struct Asking {
     Detector detector;
     Results results;
-    std::optional<MappedPose> pose{}; ///< where there is one, the command buffer is recorded once
+    std::optional<MappedPoses> pose{}; ///< where there is one, the command buffer is recorded once
 
     static Result<Asking> create(const device::Session& session, const DetectorDesc& desc) {
         Result<Detector> detector = Detector::create(session.context, desc);
@@ -53,7 +28,7 @@ struct Asking {
         VOXTACT_TRY(results);
         Asking asking{std::move(*detector), std::move(*results)};
         if (desc.devicePoses) {
-            Result<MappedPose> pose = MappedPose::create(session);
+            Result<MappedPoses> pose = MappedPoses::create(session, 1);
             VOXTACT_TRY(pose);
             asking.pose.emplace(std::move(*pose));
         }
@@ -106,7 +81,7 @@ Result<void> tick(Ticking& loop, const Work& work, const BatchItem& item, Pass& 
         VOXTACT_TRY(record(loop, work, item, Use::Once));
         *pass.recordMilliseconds += watch.milliseconds();
     } else if (loop.asking) {
-        VOXTACT_TRY(loop.asking->pose->write(item.world_from_object.front()));
+        VOXTACT_TRY(loop.asking->pose->write(item.world_from_object));
     }
     VOXTACT_TRY(submitAndAwait(loop));
     if (loop.asking) {
@@ -127,7 +102,7 @@ Result<Pass> runTicks(Ticking& loop, const Work& work, const Feeding& /*feeding*
         pass.recordMilliseconds = 0;
     } else if (!loop.recorded) {
         item.world_from_object = {};
-        item.poses = loop.asking ? &loop.asking->pose->poses : nullptr;
+        item.poses = loop.asking ? &loop.asking->pose->poses() : nullptr;
         VOXTACT_TRY(record(loop, work, item, Use::Again));
         loop.recorded = true;
     }

@@ -118,7 +118,7 @@ Result<std::vector<std::uint64_t>> count(Localizer::State& localizer, const Batc
     results.detectRecorded = true;
     {
         const Label label(context, *commandBuffer, "voxtact localize");
-        prepareResults(context, *commandBuffer, batch, results, kDesc);
+        VOXTACT_TRY(prepareResults(context, *commandBuffer, batch, results, kDesc));
         context.vk.CmdResetQueryPool(*commandBuffer, localizer.queries.get(), 0, queries);
         localizer.pass.recordTriangles(*commandBuffer, batch, results, triangles, localizer.queries.get());
         publishResults(context, *commandBuffer, results, kDesc);

@@ -80,14 +80,14 @@ Result<void> reserve(FragmentTrace::State& trace, std::uint32_t capacity) {
     return {};
 }
 
-void record(FragmentTrace::State& trace, VkCommandBuffer commandBuffer, const Batch& batch) {
+Result<void> record(FragmentTrace::State& trace, VkCommandBuffer commandBuffer, const Batch& batch) {
     ContextImpl& context = trace.context;
     ResultsImpl& results = trace.results->impl();
     const Label label(context, commandBuffer, "voxtact fragment trace");
     results.pairs = 1;
     const std::uint32_t zero = 0;
     context.vk.CmdUpdateBuffer(commandBuffer, trace.list.get(), 0, sizeof zero, &zero);
-    prepareResults(context, commandBuffer, batch, results, kDesc);
+    VOXTACT_TRY(prepareResults(context, commandBuffer, batch, results, kDesc));
     context.vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_GRAPHICS, trace.layout.get(),
                                      VOXTACT_SET_TRACE, 1, &trace.descriptors.set, 0, nullptr);
     trace.pass->record(commandBuffer, batch, results, [](const BatchItem&) { return Boundary::Range; });
@@ -96,13 +96,14 @@ void record(FragmentTrace::State& trace, VkCommandBuffer commandBuffer, const Ba
     context.vk.CmdCopyBuffer(commandBuffer, trace.list.get(), trace.readBack.get(), 1, &whole);
     barrier(context, commandBuffer, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
             VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
+    return {};
 }
 
 /// One try: the number of survivors, of which the list may hold fewer.
 Result<std::uint32_t> run(FragmentTrace::State& trace, const Batch& batch) {
     const Result<VkCommandBuffer> commandBuffer = trace.submitter.begin();
     VOXTACT_TRY(commandBuffer);
-    record(trace, *commandBuffer, batch);
+    VOXTACT_TRY(record(trace, *commandBuffer, batch));
     VOXTACT_TRY(trace.submitter.submitAndWait());
     VOXTACT_TRY(invalidate(trace.context, trace.readBack));
     std::uint32_t count = 0;

@@ -144,6 +144,14 @@ std::vector<Mat4> randomPoses(const Grid& grid, const MeshView& mesh, std::uint3
     return poses;
 }
 
+std::vector<Mat4> asFloats(std::vector<Mat4> poses) {
+    for (Mat4& pose : poses) {
+        std::ranges::transform(pose, pose.begin(),
+                               [](double element) { return static_cast<double>(static_cast<float>(element)); });
+    }
+    return poses;
+}
+
 Result<std::vector<Mat4>> onsetPoses(const Grid& grid, const MeshView& mesh, std::uint32_t count, std::uint64_t seed,
                                      const std::function<Result<bool>(const Mat4&)>& touches) {
     const Mat4 world_from_texture = worldFromTexture(grid);

@@ -18,6 +18,10 @@ inline constexpr std::uint32_t kMostPoses = 10'000'000;
 [[nodiscard]] std::vector<Mat4> randomPoses(const Grid& grid, const MeshView& mesh, std::uint32_t count,
                                             std::uint64_t seed);
 
+/// The same poses with their elements rounded to floats, so that an engine whose poses are on the device is asked what
+/// the others are.
+[[nodiscard]] std::vector<Mat4> asFloats(std::vector<Mat4> poses);
+
 /// How far around the onset of contact, in voxels (the smallest spacing).
 inline constexpr double kOnsetInside = 0.75;
 inline constexpr double kOnsetOutside = 0.25;

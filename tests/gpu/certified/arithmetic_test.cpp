@@ -5,6 +5,7 @@
 #include "gpu_fixture.h"
 #include "interception.h"
 #include "voxtact_shaders/operations_comp.h"
+#include "voxtact_shaders/operations_doubles_comp.h"
 
 #include <gmock/gmock.h>
 
@@ -43,9 +44,12 @@ PFN_vkCreateShaderModule realCreate = nullptr;
 /// Whether it is operations.comp: the last words are, whatever was added before.
 bool asksForOperations(const VkShaderModuleCreateInfo& info) {
     constexpr std::size_t kWords = 64;
-    const std::span<const std::uint32_t> own = std::span(spirv::operations_comp).last(kWords);
     const std::size_t words = info.codeSize / sizeof(std::uint32_t);
-    return words > kWords && std::ranges::equal(own, std::span(info.pCode + words - kWords, kWords));
+    const auto is = [&](std::span<const std::uint32_t> module) {
+        return words > kWords &&
+               std::ranges::equal(module.last(kWords), std::span(info.pCode + words - kWords, kWords));
+    };
+    return is(spirv::operations_comp) || is(spirv::operations_doubles_comp);
 }
 
 VkResult VKAPI_PTR createMistaken(VkDevice device, const VkShaderModuleCreateInfo* info,

@@ -289,7 +289,9 @@ TEST(RoundsTest, EachClusterOfEachPairIsInOneOfThem) {
         const RoundCut cut{mesh, limits};
         const RoundSize size = sizeOfRounds(cut);
         std::uint32_t most = 0;
+        std::uint64_t rounds = 0;
         eachRound(cut, [&](const Round& round) {
+            ++rounds;
             const std::uint32_t clusters = round.endCluster - round.firstCluster;
             EXPECT_EQ(round.firstPair % size.pairs, 0U) << seed;
             EXPECT_EQ(round.pairs, std::min(size.pairs, mesh.pairs - round.firstPair)) << seed;
@@ -307,6 +309,8 @@ TEST(RoundsTest, EachClusterOfEachPairIsInOneOfThem) {
             }
         });
         EXPECT_TRUE(mesh.pairs == 0 || most == size.clusters) << "turn " << turn << " of " << seed;
+        EXPECT_EQ(roundsOf(cut, UINT64_MAX), rounds) << "turn " << turn << " of " << seed;
+        EXPECT_EQ(roundsOf(cut, 3), std::min<std::uint64_t>(rounds, 3)) << "turn " << turn << " of " << seed;
         EXPECT_TRUE(std::ranges::all_of(seen, [](int times) { return times == 1; }))
             << "turn " << turn << " of " << seed;
     }

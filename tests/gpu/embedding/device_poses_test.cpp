@@ -2,6 +2,7 @@
 // Poses in device memory: the pairs that the device makes of them are those of the host, bit for bit.
 #include "certified/counted_fixture.h"
 #include "detect/results/results_impl.h"
+#include "gpu/context_impl.h"
 #include "raw_fixture.h"
 #include "shared.h"
 #include "support/scenes.h"
@@ -28,13 +29,6 @@ struct Layout {
     VkDeviceSize offset = 0;
     VkDeviceSize stride = kPoseFloats * sizeof(float);
 };
-
-Mat4 rounded(const Mat4& pose) {
-    Mat4 out{};
-    std::ranges::transform(pose, out.begin(),
-                           [](double element) { return static_cast<double>(static_cast<float>(element)); });
-    return out;
-}
 
 /// Near and far, scaled, sheared, mirrored and flat: all that is affine.
 Mat4 anyPose(const Grid& grid, std::mt19937_64& random) {
@@ -66,7 +60,7 @@ Mat4 anyPose(const Grid& grid, std::mt19937_64& random) {
     default:
         break;
     }
-    return rounded(pose);
+    return floatPose(pose);
 }
 
 Grid anyGrid(std::mt19937_64& random) {
@@ -121,6 +115,7 @@ class DevicePosesTest : public CertifiedTest {
         }
         return out;
     }
+    std::size_t comparePairs(const Context& with, std::size_t scenes, std::mt19937_64& random);
     std::vector<PairResult> run(const Detector& detector, const Batch& batch, Results& results) {
         const VkCommandBuffer commands = raw().begin();
         take(detector.cmdDetect(commands, batch, results));
@@ -135,32 +130,33 @@ bool operator==(const PairResult& a, const PairResult& b) {
     return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
-TEST_F(DevicePosesTest, PairsAreThoseOfTheHostBitForBit) {
-    std::mt19937_64 random(testSeed());
+/// Of as many scenes as that. Returns how many numbers of the pairs were finite.
+std::size_t DevicePosesTest::comparePairs(const Context& with, std::size_t scenes, std::mt19937_64& random) {
     constexpr std::size_t kPoses = 100;
     std::size_t finite = 0;
     std::map<Projection, Detector> detectors;
     for (const Projection projection : {Projection::Conservative, Projection::TwoView}) {
-        detectors.emplace(projection, take(Detector::create(context(), {.method = CountingMethod::Compute,
-                                                                        .projection = projection,
-                                                                        .devicePoses = true})));
+        detectors.emplace(
+            projection, take(Detector::create(
+                            with, {.method = CountingMethod::Compute, .projection = projection, .devicePoses = true})));
     }
-    for (std::size_t scenes = 0; scenes < randomCases(1000, 200); ++scenes) {
+    for (std::size_t scene = 0; scene < scenes; ++scene) {
         const Grid grid = anyGrid(random);
-        const Volume volume = take(
-            Volume::upload(context(), queue(), makeBytes(grid, [](auto...) { return 0.0; }).view(), {.bricks = true}));
-        const TransferFunction function = upload(byteRamp(), {0, 255});
-        const Mesh mesh = upload(makeFlat(0, 1, 0, 1, 0.5));
+        const Volume volume =
+            take(Volume::upload(with, queue(), makeBytes(grid, [](auto...) { return 0.0; }).view(), {.bricks = true}));
+        const TransferFunction function =
+            take(TransferFunction::upload(with, queue(), {byteRamp(), {0, 255}, kDefaultTableSize}));
+        const Mesh mesh = take(Mesh::upload(with, queue(), makeFlat(0, 1, 0, 1, 0.5).view()));
         std::vector<Mat4> poses(kPoses);
         std::ranges::generate(poses, [&] { return anyPose(grid, random); });
         const RawVulkan::HostBuffer buffer = write(poses);
-        const PoseBuffer onDevice = wrap(buffer, kPoses);
+        const PoseBuffer onDevice = take(PoseBuffer::wrap(with, {.buffer = buffer.buffer, .count = kPoses}));
         for (const auto& [projection, detector] : detectors) {
             const View view = flatView(-50, 50, 8, 8);
             const std::array items{
                 BatchItem{&mesh, &volume, &function, poses},
                 BatchItem{.mesh = &mesh, .volume = &volume, .transferFunction = &function, .poses = &onDevice}};
-            Results results = take(Results::create(context(), {.maxPairs = 2 * kPoses}));
+            Results results = take(Results::create(with, {.maxPairs = 2 * kPoses}));
             const std::vector<PairResult> found = run(detector, {items, view, 0.5}, results);
             const std::size_t ofPair = projection == Projection::Conservative ? sizeof(shader::CertifiedPair)
                                                                               : 2 * sizeof(shader::PairTransform);
@@ -174,7 +170,7 @@ TEST_F(DevicePosesTest, PairsAreThoseOfTheHostBitForBit) {
                     const bool same =
                         std::bit_cast<std::uint32_t>(host[word]) == std::bit_cast<std::uint32_t>(device[word]);
                     EXPECT_TRUE(same || (std::isnan(host[word]) && std::isnan(device[word])))
-                        << "scene " << scenes << ", pose " << i << ", word " << word << ": " << host[word] << ", "
+                        << "scene " << scene << ", pose " << i << ", word " << word << ": " << host[word] << ", "
                         << device[word];
                     finite += std::isfinite(host[word]) ? 1U : 0U;
                 }
@@ -186,7 +182,27 @@ TEST_F(DevicePosesTest, PairsAreThoseOfTheHostBitForBit) {
             }
         }
     }
-    EXPECT_GT(finite, 10'000U);
+    return finite;
+}
+
+TEST_F(DevicePosesTest, PairsAreThoseOfTheHostBitForBit) {
+    std::mt19937_64 random(testSeed());
+    EXPECT_GT(comparePairs(context(), randomCases(1000, 200), random), 10'000U);
+}
+
+/// Where the device has no doubles, integers make them.
+TEST_F(DevicePosesTest, PairsAreThoseOfTheHostWithoutDoubles) {
+    if (!context().impl().floatControls.doubles) {
+        GTEST_SKIP() << "this device has none: the test before has looked at that";
+    }
+    std::mt19937_64 random(testSeed());
+    FeatureRequest less(gpu().device.contextDesc().enabledFeatures);
+    less.features2.features.shaderFloat64 = VK_FALSE;
+    ContextDesc desc = gpu().device.contextDesc();
+    desc.enabledFeatures = &less.features2;
+    const Context integers = take(Context::create(desc));
+    EXPECT_FALSE(integers.impl().floatControls.doubles);
+    EXPECT_GT(comparePairs(integers, randomCases(1000, 200), random), 10'000U);
 }
 
 TEST_F(DevicePosesTest, AnswersAreThoseOfHostPosesByEveryMethod) {
@@ -198,7 +214,7 @@ TEST_F(DevicePosesTest, AnswersAreThoseOfHostPosesByEveryMethod) {
     const Mesh mesh = take(Mesh::upload(context(), queue(), take(makeScalpel()).view(), {.clusters = true}));
     const View view = View{framingCamera(head.grid, 128, 128), 128, 128};
     std::vector<Mat4> poses = randomPoses(head.grid, 70, 1, random);
-    std::ranges::transform(poses, poses.begin(), rounded);
+    std::ranges::transform(poses, poses.begin(), floatPose);
     const Layout layout{.offset = 20, .stride = 100};
     const RawVulkan::HostBuffer buffer = write(poses, layout);
     const PoseBuffer onDevice = wrap(buffer, poses.size(), layout);

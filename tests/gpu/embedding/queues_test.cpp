@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The queues between the passes of the projection `conservative`: answers do not depend on their room.
+#include "detect/certified/certified_queues.h"
 #include "raw_fixture.h"
 #include "shared.h"
 
@@ -98,7 +99,7 @@ TEST_F(QueuesTest, NoAnswerDependsOnTheirRoom) {
                                     .projection = Projection::Conservative,
                                     .outputs = outputs,
                                     .stopAtFirst = stopAtFirst};
-            for (const std::uint32_t clusters : {16U, 16384U}) {
+            for (const std::uint32_t clusters : {16U, 16384U, kMostQueueRoom}) {
                 const auto pairs = static_cast<std::uint32_t>(poses.size());
                 expectSame(detect(desc, {{&item, 1}, {}, kDefaultThreshold}, pairs, clusters), onHost,
                            std::string(source) + ", " + std::to_string(clusters) + " clusters at once, seed " +
@@ -255,10 +256,61 @@ TEST_F(QueuesTest, RoundsBeyondTheHeadersBeginEmpty) {
 }
 
 TEST_F(QueuesTest, RoomsThatCannotBe) {
-    for (const std::uint32_t clusters : {1U, 15U, 16385U}) {
+    for (const std::uint32_t clusters : {1U, 15U, 262145U}) {
         const Result<Results> refused = Results::create(context(), {.clustersAtOnce = clusters});
         ASSERT_FALSE(refused.ok());
         EXPECT_THAT(refused.error().text, HasSubstr("ResultsDesc::clustersAtOnce is " + std::to_string(clusters)));
+    }
+}
+
+TEST(RoomTest, IsWhatWasAskedForOrWhatTheDeviceAllows) {
+    constexpr VkDeviceSize kMuch = VkDeviceSize{1} << 33U;
+    const RoomLimits any{kMuch, kMuch, kMostRoomAnywhere};
+    const RoomLimits large{kMuch, kMuch, kMostQueueRoom};
+    const RoomLimits little{kMuch, VkDeviceSize{64} << 20U, kMostQueueRoom};
+    const RoomLimits tight{VkDeviceSize{1} << 20U, kMuch, kMostQueueRoom};
+    const auto room = [](std::optional<std::uint32_t> clusters, std::uint32_t pairs, const RoomLimits& limits) {
+        return queueRoomFor({.maxPairs = pairs, .clustersAtOnce = clusters}, limits, 0);
+    };
+    // By the pairs, up to what the device allows.
+    EXPECT_EQ(room({}, 1, large), kUsualQueueRoom);
+    EXPECT_EQ(room({}, 100, large), 128U * 64);
+    EXPECT_EQ(room({}, 1000, any), kMostRoomAnywhere);
+    EXPECT_EQ(room({}, 1000, large), 65536U);
+    EXPECT_EQ(room({}, 1U << 30U, large), kMostQueueRoom);
+    // No more of its memory than usual, unless that is asked for.
+    EXPECT_EQ(room({}, 1U << 30U, little), 65536U);
+    EXPECT_LE(queueBytes(65536), little.usualBytes);
+    EXPECT_EQ(room(kMostQueueRoom, 1, little), kMostQueueRoom);
+    EXPECT_EQ(room({}, 1U << 30U, {kMuch, 0, kMostQueueRoom}), kMostRoomAnywhere);
+    // What is asked for, in steps of 16.
+    EXPECT_EQ(room(kMostQueueRoom, 1, any), kMostRoomAnywhere);
+    EXPECT_EQ(room(1000, 1, any), 992U);
+    EXPECT_EQ(room(0, 1, any), 0U);
+    // The buffer is the last word.
+    EXPECT_LE(queueBytes(room({}, 1U << 30U, tight)), tight.bytes);
+    EXPECT_GT(queueBytes(2 * room({}, 1U << 30U, tight)), tight.bytes);
+    EXPECT_EQ(room({}, 1, {1000, kMuch, kMostQueueRoom}), 0U);
+}
+
+TEST(RoomTest, FollowsTheWorkGroupsAndTheMemoryOfADevice) {
+    VkPhysicalDeviceLimits device{};
+    device.maxStorageBufferRange = UINT32_MAX;
+    VkPhysicalDeviceMemoryProperties memory{};
+    memory.memoryHeapCount = 2;
+    memory.memoryHeaps[0] = {VkDeviceSize{1} << 40U, 0}; // the host's
+    memory.memoryHeaps[1] = {VkDeviceSize{8} << 30U, VK_MEMORY_HEAP_DEVICE_LOCAL_BIT};
+    for (const auto& [groups, room] : {std::pair{65535U, 16384U},
+                                       {131069U, 16384U},
+                                       {131070U, 32768U},
+                                       {0x7fffffffU, kMostQueueRoom},
+                                       {UINT32_MAX, kMostQueueRoom}}) {
+        device.maxComputeWorkGroupCount[0] = groups;
+        const RoomLimits limits = roomLimits(device, VkDeviceSize{1} << 31U, memory);
+        EXPECT_EQ(limits.room, room) << groups;
+        EXPECT_EQ(limits.bytes, VkDeviceSize{1} << 31U);
+        EXPECT_EQ(limits.usualBytes, VkDeviceSize{64} << 20U);
+        EXPECT_LE(VOXTACT_MARGIN_ROOM_LARGE(std::uint64_t{room}), groups);
     }
 }
 
