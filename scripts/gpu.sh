@@ -109,7 +109,7 @@ suites() {
     while [ $# -gt 0 ]; do
         suite=$1
         left=$((end - SECONDS))
-        share=$((3 * left / ($# + 2)))
+        share=$((6 * left / ($# + 5)))
         printf '%s\n' "$suite"
         rm -f "$work/suite.json"
         status="not run"
@@ -149,12 +149,12 @@ tr -d '\n' <"$out/devices.json" | grep -o '{[^{}]*}' | grep '"default": *1' | gr
 
 agreement=(AgreementTest HostAgreementTest ConservativeTest AnalyticTest ProjectionsTest OutputsTest RandomPosesTest
     EditTest ValueTest TableUpdateTest BricksTest DrillTest LocalizeTest QueuesTest CountersTest RoundsTest DrawSizeTest
-    RecordedOutputsTest ProjectionOutputsTest CGpuTest)
-latency=(--time-limit 40)
+    RecordedOutputsTest ProjectionOutputsTest CGpuTest DevicePosesTest StagedTest)
+latency=(--time-limit 25)
 certified=(--number 256 --repetitions 5)
-paper=(--time-limit 50)
-batches=(--time-limit 35)
-limits=(55 120 57 57 72 52) # with that of the devices, and three seconds for each that must be killed, eight minutes
+paper=(--time-limit 40)
+batches=(--time-limit 25)
+limits=(40 175 40 60 60 40) # with that of the devices, and three seconds for each that must be killed, eight minutes
 if [ $on_cpu -eq 1 ]; then
     printf '%s\n' "   no GPU: a driver on the processor is asked less"
     agreement=(AnalyticTest ValueTest EditTest TableUpdateTest BricksTest)

@@ -136,11 +136,11 @@ void end(uint pair, uint at, uint result, Search search) {
 vec3 voxelOf(PairGrid grid, RigidPose pose, uint first, bool place) {
     vec3 found;
     ROLLED for (uint row = 0; row < 3; ++row) {
-        Wide sum = PAIR_ZERO;
+        Wide sum = wideMultiply(grid.texture_from_world.element[row], pose.number[first]);
         if (place) {
-            sum = grid.texture_from_world.element[12 + row];
+            sum = wideAdd(grid.texture_from_world.element[12 + row], sum);
         }
-        ROLLED for (uint k = 0; k < 3; ++k) {
+        ROLLED for (uint k = 1; k < 3; ++k) {
             sum = wideAdd(sum, wideMultiply(grid.texture_from_world.element[4 * k + row], pose.number[first + k]));
         }
         sum = wideMultiply(sum, grid.size[row]);

@@ -114,9 +114,10 @@ EXACT PairRows pairRows(PairGrid grid, WideMatrix world_from_object) {
     PairRows rows;
     ROLLED for (uint column = 0; column < 4; ++column) {
         ROLLED for (uint row = 0; row < 3; ++row) {
-            Wide sum = PAIR_ZERO;
-            Wide magnitude = PAIR_ZERO;
-            ROLLED for (uint k = 0; k < 4; ++k) {
+            // Not from zero on: llvmpipe takes 0 + a for a, which keeps the sign of a zero.
+            Wide sum = wideMultiply(grid.texture_from_world.element[row], world_from_object.element[4 * column]);
+            Wide magnitude = wideAbs(sum);
+            ROLLED for (uint k = 1; k < 4; ++k) {
                 const Wide term = wideMultiply(grid.texture_from_world.element[4 * k + row],
                                                world_from_object.element[4 * column + k]);
                 sum = wideAdd(sum, term);
@@ -150,7 +151,6 @@ EXACT PairReference pairReference(PairGrid grid, WideMatrix m) {
     // Of the determinant, and of what it divides.
     Wide sum[4];
     ROLLED for (uint axis = 0; axis < 4; ++axis) {
-        sum[axis] = PAIR_ZERO;
         ROLLED for (uint i = 0; i < 3; ++i) {
             const uint row = axis == 3 ? 0u : i;
             const uint column = axis == 3 ? i : axis;
@@ -158,7 +158,12 @@ EXACT PairReference pairReference(PairGrid grid, WideMatrix m) {
             if (axis < 3) {
                 by = wideSubtract(wideMultiply(PAIR_HALF, grid.size[row]), m.element[12 + row]);
             }
-            sum[axis] = wideAdd(sum[axis], wideMultiply(pairMinor(m, row, column), by));
+            const Wide term = wideMultiply(pairMinor(m, row, column), by);
+            if (i == 0) {
+                sum[axis] = term;
+            } else {
+                sum[axis] = wideAdd(sum[axis], term);
+            }
         }
     }
     PairReference reference;

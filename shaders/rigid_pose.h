@@ -133,8 +133,8 @@ EXACT RigidPose rigidPose(RigidWay way, Wide parameter) {
     const Wide ofSpeed[6] = {PAIR_ONE, sum[4], sum[5], none, none, none};
     RigidPose pose;
     ROLLED for (uint number = 0; number < RIGID_NUMBERS; ++number) {
-        Wide all = PAIR_ZERO;
-        ROLLED for (uint term = 0; term < RIGID_TERMS; ++term) {
+        Wide all = rigidTerm(way, number, 0); // once
+        ROLLED for (uint term = 1; term < RIGID_TERMS; ++term) {
             Wide by = ofPlace[term];
             if (number >= RIGID_SPEED) {
                 by = ofSpeed[term];

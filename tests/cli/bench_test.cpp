@@ -172,16 +172,19 @@ TEST_F(BenchTest, LatencyRefusesWhatItHasNoUseFor) {
 
 TEST_F(BenchTest, BatchesOfEverySizeAndVerified) {
     const Json result = json({"bench", "--batches", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:300",
-                              "--opacity", "40:0,80:1", "--number", "30", "--repetitions", "2"});
+                              "--opacity", "40:0,80:1", "--number", "30", "--repetitions", "2", "--time-limit", "120"});
     std::map<std::string, std::vector<int>> sizes;
     for (const Json& row : result["rows"]) {
-        sizes[row["engine"].get<std::string>() + " " + row["projection"].get<std::string>()].push_back(row["batch"]);
+        const std::string where = row["poses_on"].is_null() ? "" : " " + row["poses_on"].get<std::string>();
+        sizes[row["engine"].get<std::string>() + " " + row["projection"].get<std::string>() + where].push_back(
+            row["batch"]);
         EXPECT_EQ(row["samples"], 2) << row;
         EXPECT_GT(row["wall_ms"]["median"], 0) << row;
         EXPECT_GT(row["pairs_per_s"], 0) << row;
     }
     for (const char* engine :
-         {"cpu view", "cpu conservative", "compute view", "compute conservative", "query view", "atomic view"}) {
+         {"cpu view", "cpu conservative", "compute view host", "compute conservative host", "query view host",
+          "atomic view host", "compute view device", "compute conservative device"}) {
         EXPECT_EQ(sizes[engine], (std::vector<int>{1, 10, 30})) << engine;
     }
     // No more than fit.
