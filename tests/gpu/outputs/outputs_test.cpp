@@ -177,10 +177,12 @@ TEST_F(OutputsTest, NormalsAndDepthsOfKnownSolids) {
             const ContactErrors errors = contactErrors(scene, answer.contacts);
             EXPECT_GT(errors.compared, 100U) << scene.name;
             EXPECT_LT(errors.degrees, scene.degrees) << scene.name;
-            EXPECT_LT(errors.mm, scene.mm) << scene.name;
+            const bool compute = &one == &detectors.back();
+            // Weights of 8 bits let a fragment survive that is a 256th of a voxel outside, where the depth is 0.
+            const double filtered = compute ? 0 : std::ranges::max(scene.volume.grid.spacing) / 256;
+            EXPECT_LT(errors.mm, scene.mm + filtered) << scene.name;
             EXPECT_LT(errors.value, 1e-5) << scene.name;
             // A rasteriser interpolates with what errors it likes, most of all on triangles that are nearly edge-on.
-            const bool compute = &one == &detectors.back();
             EXPECT_LT(errors.fromTriangle, compute ? 2e-4 : 0.5) << scene.name;
             (compute ? exact : raster) = std::max(compute ? exact : raster, errors.fromTriangle);
         }
