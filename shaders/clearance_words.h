@@ -66,7 +66,7 @@
 // The third word of an entry of the queue of large triangles is its brick; or this, and from the lowest bit on the
 // brick's slot, a cell of the brick that is first on the way from the run, and the triangle that the way begins at.
 #define VOXTACT_HAS_SLOT (1u << 31)
-#define VOXTACT_FIRST_CELL_SHIFT 16
+#define VOXTACT_FIRST_CELL_SHIFT 18
 #define VOXTACT_FIRST_TRIANGLE_SHIFT (VOXTACT_FIRST_CELL_SHIFT + 3 * VOXTACT_BRICK_SHIFT)
 // The fourth has, above the bits of the triangles, what the brick is no nearer to them than; and that of an entry of
 // the queue of cells above its number along the third axis: in parts of a flat unit, from what the pair is known to be
@@ -77,6 +77,7 @@
 #ifdef __cplusplus
 static_assert(VOXTACT_WORD_CLEARANCE_LARGE(16) % 4 == 0 && VOXTACT_WORD_CLEARANCE_LEFT(16) % 4 == 0);
 static_assert(VOXTACT_WORD_CLEARANCE_LEFT(16) + 4 * VOXTACT_CLEARANCE_ROOM_LEFT(16) <= VOXTACT_WORD_CLUSTERS(16));
+static_assert(VOXTACT_RUN_TRIANGLES <= 1 << (31 - VOXTACT_FIRST_TRIANGLE_SHIFT));
 static_assert(VOXTACT_ROOM_NEAREST(16) <= VOXTACT_CLEARANCE_ROOM_LARGE(16));
 #endif
 

@@ -102,7 +102,9 @@ std::uint32_t queueRoomFor(const ResultsDesc& desc, const RoomLimits& limits, Vk
     constexpr std::uint32_t kStep = 16; // shaders/shared.h
     std::uint32_t room = std::min(desc.clustersAtOnce.value_or(0), limits.room);
     if (!desc.clustersAtOnce) {
-        const std::uint32_t pairs = std::bit_ceil(std::min(desc.maxPairs, limits.room / kClustersOfPair));
+        // Searches, step by step, have not been seen to gain by more.
+        const std::uint32_t most = desc.clearances || desc.motions ? kMostRoomAnywhere : limits.room;
+        const std::uint32_t pairs = std::bit_ceil(std::min(desc.maxPairs, most / kClustersOfPair));
         room = std::max(kUsualQueueRoom, pairs * kClustersOfPair);
         while (room > kMostRoomAnywhere && bytesFromQueues(room, desc) > limits.usualBytes) {
             room /= 2;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "clearance_words.h"
 #include "detect/results/results_impl.h"
 #include "motion_words.h"
 
@@ -14,7 +15,10 @@ inline constexpr std::uint32_t kMostQueueRoom = 262144;
 inline constexpr std::uint32_t kMostRoomAnywhere = 16384;
 /// What Results get that were not asked for another.
 inline constexpr std::uint32_t kUsualQueueRoom = 2048;
-static_assert(VOXTACT_MARGIN_ROOM_LARGE(kMostRoomAnywhere) <= 65535, "Vulkan's least maxComputeWorkGroupCount");
+static_assert(VOXTACT_MARGIN_ROOM_LARGE(kMostRoomAnywhere) <= 65535 && VOXTACT_ROOM_NEAREST(kMostRoomAnywhere) <= 65535,
+              "Vulkan's least maxComputeWorkGroupCount");
+static_assert(VOXTACT_ROOM_BITS(kMostQueueRoom) <= 1U << VOXTACT_FIRST_CELL_SHIFT, "a slot has so many bits");
+static_assert(VOXTACT_MARGIN_ROOM_LARGE(kMostQueueRoom) < 1U << VOXTACT_LEFT_SHIFT, "a number has so many bits");
 
 /// Bytes for what PairSetup needs of items.
 inline constexpr VkDeviceSize kSetupBytes =

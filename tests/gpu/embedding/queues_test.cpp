@@ -278,6 +278,8 @@ TEST(RoomTest, IsWhatWasAskedForOrWhatTheDeviceAllows) {
     EXPECT_EQ(room({}, 1000, any), kMostRoomAnywhere);
     EXPECT_EQ(room({}, 1000, large), 65536U);
     EXPECT_EQ(room({}, 1U << 30U, large), kMostQueueRoom);
+    EXPECT_EQ(queueRoomFor({.maxPairs = 1U << 20U, .clearances = true}, large, 0), kMostRoomAnywhere);
+    EXPECT_EQ(queueRoomFor({.maxPairs = 1U << 20U, .motions = true}, large, 0), kMostRoomAnywhere);
     // No more of its memory than usual, unless that is asked for.
     EXPECT_EQ(room({}, 1U << 30U, little), 65536U);
     EXPECT_LE(queueBytes(65536), little.usualBytes);
