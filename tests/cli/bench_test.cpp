@@ -171,8 +171,9 @@ TEST_F(BenchTest, LatencyRefusesWhatItHasNoUseFor) {
 }
 
 TEST_F(BenchTest, BatchesOfEverySizeAndVerified) {
-    const Json result = json({"bench", "--batches", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:300",
-                              "--opacity", "40:0,80:1", "--number", "30", "--repetitions", "2", "--time-limit", "3600"});
+    const Json result =
+        json({"bench", "--batches", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:300", "--opacity",
+              "40:0,80:1", "--number", "30", "--repetitions", "2", "--time-limit", "3600"});
     std::map<std::string, std::vector<int>> sizes;
     for (const Json& row : result["rows"]) {
         const std::string where = row["poses_on"].is_null() ? "" : " " + row["poses_on"].get<std::string>();

