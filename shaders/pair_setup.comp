@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A lane a pose: what the passes need of the pair, and its result with a count of zero. With CERTIFIED for the
-// projection `conservative`.
+// projection `conservative`; with OF_HOST for poses of the host's, in double precision, which it has checked.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -32,20 +32,35 @@ layout(push_constant) uniform Constants { PairSetupConstants constants; };
 
 #include "exact_language.h"
 
+#ifdef OF_HOST
+#define POSE_WORDS VOXTACT_HOST_POSE_WORDS
+#else
+#define POSE_WORDS 16
+#endif
+
 /// A pose as it lies in the buffer.
 struct PoseBits {
-    uint word[16];
+    uint word[POSE_WORDS];
 };
 
 /// All of it at once, not one element after the other: mapped memory is a microsecond away from a GPU.
 PoseBits poseBits(uint at) {
     PoseBits pose;
-    for (uint i = 0; i < 16; ++i) {
+    for (uint i = 0; i < POSE_WORDS; ++i) {
         pose.word[i] = poses[at + i];
     }
     return pose;
 }
 
+#ifdef OF_HOST
+bool isUsable(PoseBits pose) {
+    return true;
+}
+
+Wide elementOf(PoseBits pose, uint i) {
+    return wideBits(pose.word[2 * i + 1], pose.word[2 * i]);
+}
+#else
 /// Whether all of a pose is finite, and its last row that of an affine map.
 bool isUsable(PoseBits pose) {
     bool usable = true;
@@ -59,10 +74,15 @@ bool isUsable(PoseBits pose) {
     return usable;
 }
 
+Wide elementOf(PoseBits pose, uint i) {
+    return wideOfFloatBits(pose.word[i]);
+}
+#endif
+
 WideMatrix matrixOf(PoseBits pose) {
     WideMatrix matrix;
-    ROLLED for (int i = 0; i < 16; ++i) {
-        matrix.element[i] = wideOfFloatBits(pose.word[i]);
+    ROLLED for (uint i = 0; i < 16; ++i) {
+        matrix.element[i] = elementOf(pose, i);
     }
     return matrix;
 }

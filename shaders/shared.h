@@ -353,6 +353,8 @@ struct CertifiedConstants {
 /// What is the same for all pairs of an item has so many words; for so many items at once.
 #define VOXTACT_SETUP_WORDS 128
 #define VOXTACT_SETUP_ITEMS 16
+/// A pose of the host's: 16 doubles.
+#define VOXTACT_HOST_POSE_WORDS 32
 // Bindings of the pass that edits voxels.
 #define VOXTACT_BINDING_EDIT_ROWS 0
 #define VOXTACT_BINDING_EDIT_TEXELS 1

@@ -35,7 +35,9 @@ struct DetectorDesc {
     /// InvalidArgument for other projections and for the method compute.
     bool overestimate = false;
     /// Batches may have BatchItem::poses. The pass that makes pairs of them is then made, too, and the queue needs
-    /// compute beside graphics.
+    /// compute beside graphics. Poses that the host has become pairs by it as well in Results that are staged, where a
+    /// batch has 256 pairs or more and the device has doubles (shaderFloat64, which must round as the host's); the
+    /// pairs are the same, bit for bit.
     bool devicePoses = false;
     /// conservative with stopAtFirst and without outputs: what is asked is whether anything opaque is within so much of
     /// the mesh's surface; world mm, 0 to 1,000,000. 0 is the touch, by the same programs as without it. `hit` and
@@ -169,9 +171,10 @@ struct ResultsDesc {
     bool motions = false;
     /// What the host makes of poses goes through mapped memory of the Results, 248 bytes a pair, in place of the
     /// command buffer. Recording a batch of thousands of pairs then takes a fraction of the time with drivers that are
-    /// slow to write into command buffers, as NVIDIA's is. In exchange a batch may be recorded only when the submission
-    /// of the one before it has completed, which is then not submitted again; a ring has Results for each frame in
-    /// flight. Poses on the device need none of it.
+    /// slow to write into command buffers, as NVIDIA's is; by a detector with devicePoses it is the poses themselves,
+    /// which is several times faster still. In exchange a batch may be recorded only when the submission of the one
+    /// before it has completed, which is then not submitted again; a ring has Results for each frame in flight. Poses
+    /// on the device need none of it.
     bool staged = false;
     /// Where the PairResults go: a part of a buffer of the caller's, of at least maxPairs * sizeof(PairResult) bytes,
     /// with the usage STORAGE_BUFFER | TRANSFER_SRC | TRANSFER_DST. The offset is a multiple of 8 and of the device's
@@ -378,6 +381,8 @@ class Detector {
     [[nodiscard]] VOXTACT_API Boundary boundaryFor(const BatchItem& item, double threshold) const noexcept;
 
   private:
+    friend class BlockingDetector;
+    [[nodiscard]] static Result<Detector> create(ContextImpl& context, const DetectorDesc& desc);
     explicit Detector(std::unique_ptr<DetectorImpl> impl) noexcept;
     std::unique_ptr<DetectorImpl> impl_;
 };

@@ -3,6 +3,8 @@
 #include "core/base/live.h"
 #include "core/base/try.h"
 #include "core/method/method_table.h"
+#include "detect/many_poses.h"
+#include "detect/pair_setup.h"
 #include "detect/results/results_impl.h"
 #include "gpu/context_impl.h"
 #include "gpu/submit.h"
@@ -16,9 +18,13 @@ namespace voxtact {
 struct BlockingDetector::State {
     ContextImpl& context;
     Detector detector;
+    std::optional<Detector> forMany; ///< forManyPoses(), from the first such batch on
     ResultsDesc resultsDesc;
     std::optional<Results> results;
     Submitter submitter;
+
+    /// The one to record a batch with.
+    Result<const Detector*> detectorFor(const Batch& batch);
 };
 
 namespace {
@@ -76,6 +82,20 @@ std::vector<PairAnswer> unpackAll(std::span<const PairResult> results) {
 
 } // namespace
 
+Result<const Detector*> BlockingDetector::State::detectorFor(const Batch& batch) {
+    const std::optional<DetectorDesc> many =
+        hasDevicePoses(batch) ? std::nullopt : forManyPoses(context, detector.desc(), pairsOf(batch));
+    if (!many) {
+        return &detector;
+    }
+    if (!forMany) {
+        Result<Detector> made = Detector::create(context, *many);
+        VOXTACT_TRY(made);
+        forMany = std::move(*made);
+    }
+    return &*forMany;
+}
+
 BlockingDetector::BlockingDetector(std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}
 BlockingDetector::BlockingDetector(BlockingDetector&&) noexcept = default;
 BlockingDetector& BlockingDetector::operator=(BlockingDetector&&) noexcept = default;
@@ -101,8 +121,8 @@ Result<BlockingDetector> BlockingDetector::create(const Context& context, const 
         if (desc.outputs.any()) {
             resultsDesc.room = OutputRoom{.contacts = desc.outputs.contacts ? mostContacts : 0};
         }
-        return BlockingDetector(std::make_unique<State>(
-            State{context.impl(), std::move(*detector), resultsDesc, std::nullopt, std::move(*submitter)}));
+        return BlockingDetector(std::make_unique<State>(State{context.impl(), std::move(*detector), std::nullopt,
+                                                              resultsDesc, std::nullopt, std::move(*submitter)}));
     });
 }
 
@@ -120,7 +140,9 @@ Result<BatchAnswer> BlockingDetector::detect(const Batch& batch) {
             s.results = std::move(*larger);
             s.resultsDesc = *wanted;
         }
-        VOXTACT_TRY(s.detector.cmdDetect(*commandBuffer, batch, *s.results));
+        const Result<const Detector*> detector = s.detectorFor(batch);
+        VOXTACT_TRY(detector);
+        VOXTACT_TRY((*detector)->cmdDetect(*commandBuffer, batch, *s.results));
         VOXTACT_TRY(s.results->cmdReadBack(*commandBuffer));
         VOXTACT_TRY(s.submitter.submitAndWait());
         const Result<std::span<const PairResult>> results = s.results->read();

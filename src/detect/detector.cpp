@@ -52,8 +52,8 @@ double largestTexel(const VolumeImpl& volume) {
     return largest;
 }
 
-Result<void> checkMethod(const Context& context, CountingMethod method) {
-    for (const MethodSupport& entry : context.methods()) {
+Result<void> checkMethod(const ContextImpl& context, CountingMethod method) {
+    for (const MethodSupport& entry : context.methods) {
         if (entry.method == method) {
             if (entry.available) {
                 return {};
@@ -254,10 +254,13 @@ Detector& Detector::operator=(Detector&&) noexcept = default;
 Detector::~Detector() = default;
 
 Result<Detector> Detector::create(const Context& context, const DetectorDesc& desc) {
+    return create(context.impl(), desc);
+}
+
+Result<Detector> Detector::create(ContextImpl& c, const DetectorDesc& desc) {
     return guard([&]() -> Result<Detector> {
-        ContextImpl& c = context.impl();
         VOXTACT_TRY(c.alive());
-        VOXTACT_TRY(checkMethod(context, desc.method));
+        VOXTACT_TRY(checkMethod(c, desc.method));
         VOXTACT_TRY(checkDesc(c, desc));
         VOXTACT_TRY(checkMargin(desc));
         VOXTACT_TRY(checkPoseTolerance(desc));

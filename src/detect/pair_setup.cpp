@@ -6,6 +6,7 @@
 #include "core/method/method_table.h"
 #include "detect/buffer_update.h"
 #include "detect/certified/certified_queues.h"
+#include "detect/many_poses.h"
 #include "gpu/barriers.h"
 #include "gpu/layouts.h"
 #include "gpu/pipeline.h"
@@ -14,12 +15,15 @@
 
 #include "voxtact_shaders/pair_setup_certified_comp.h"
 #include "voxtact_shaders/pair_setup_certified_doubles_comp.h"
+#include "voxtact_shaders/pair_setup_certified_host_comp.h"
 #include "voxtact_shaders/pair_setup_comp.h"
 #include "voxtact_shaders/pair_setup_doubles_comp.h"
+#include "voxtact_shaders/pair_setup_host_comp.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
 
 namespace voxtact {
@@ -37,6 +41,7 @@ struct ViewItem {
 
 static_assert(VOXTACT_SETUP_ITEMS * sizeof(ItemWords) == kSetupBytes);
 static_assert(sizeof(ViewItem) <= sizeof(ItemWords) && sizeof(shader::PairGrid) <= sizeof(ItemWords));
+static_assert(sizeof(Mat4) == VOXTACT_HOST_POSE_WORDS * sizeof(std::uint32_t));
 static_assert(std::endian::native == std::endian::little, "a double's low word comes first");
 static_assert(offsetof(shader::PairGrid, size) == 32 * 4 && offsetof(shader::PairGrid, sign) == 38 * 4 &&
                   offsetof(shader::PairGrid, lessOrigin) == 44 * 4 &&
@@ -73,6 +78,16 @@ Result<VkPipelineLayout> setupLayout(ContextImpl& context) {
     return context.setupLayout.get();
 }
 
+/// Whether no product of three elements, and of a grid's, is a denormal, which a device may lose.
+bool staysNormal(const Mat4& pose) noexcept {
+    constexpr double kLeast = 0x1p-200;
+    bool normal = true;
+    for (const double element : pose) {
+        normal &= element == 0 || std::abs(element) >= kLeast;
+    }
+    return normal;
+}
+
 template <class Item> ItemWords wordsOf(const Item& item) {
     ItemWords words{};
     std::memcpy(words.data(), &item, sizeof item);
@@ -91,7 +106,25 @@ bool hasDevicePoses(const Batch& batch) noexcept {
     return std::ranges::any_of(batch.items, [](const BatchItem& item) { return item.poses != nullptr; });
 }
 
-Result<void> makeSetupSet(ResultsImpl& results) {
+namespace {
+
+Result<void> makeStagedPoses(ResultsImpl& results) {
+    ContextImpl& context = results.context;
+    const Result<VkDescriptorSetLayout> layout = poseSetLayout(context);
+    VOXTACT_TRY(layout);
+    constexpr VkDescriptorPoolSize kSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1};
+    Result<DescriptorSet> set = makeDescriptorSet(context, *layout, {&kSize, 1}, "staged poses");
+    VOXTACT_TRY(set);
+    results.stagedPoses = std::move(*set);
+    results.stagedPoseRoom = static_cast<std::uint32_t>(
+        std::min<VkDeviceSize>(results.maxPairs, context.limits.maxStorageBufferRange / sizeof(Mat4)));
+    writeBuffer(context, results.stagedPoses.set, 0, results.staging.get(), results.stagedPoseRoom * sizeof(Mat4));
+    return {};
+}
+
+} // namespace
+
+Result<void> makeSetupSets(ResultsImpl& results) {
     ContextImpl& context = results.context;
     const Result<VkDescriptorSetLayout> layout = setupSetLayout(context);
     VOXTACT_TRY(layout);
@@ -105,7 +138,7 @@ Result<void> makeSetupSet(ResultsImpl& results) {
                 results.results.offset);
     writeBuffer(context, handle, VOXTACT_BINDING_SETUP_ITEMS, results.transforms.get(), kSetupBytes,
                 setupByte(results));
-    return {};
+    return results.staging.buffer ? makeStagedPoses(results) : Result<void>();
 }
 
 Result<PairSetup> PairSetup::create(ContextImpl& context, const DetectorDesc& desc) {
@@ -113,27 +146,64 @@ Result<PairSetup> PairSetup::create(ContextImpl& context, const DetectorDesc& de
     VOXTACT_TRY(layout);
     using Words = std::span<const std::uint32_t>;
     const bool doubles = context.floatControls.doubles;
-    const Words certified =
-        doubles ? Words(spirv::pair_setup_certified_doubles_comp) : Words(spirv::pair_setup_certified_comp);
-    const Words others = doubles ? Words(spirv::pair_setup_doubles_comp) : Words(spirv::pair_setup_comp);
-    const Result<VkPipeline> pipeline =
-        computePipeline(context, rowOf(desc.projection).certified ? certified : others, {}, *layout, "pair set-up");
+    const bool certified = rowOf(desc.projection).certified;
+    PairSetup setup(context, desc);
+    const Result<VkPipeline> pipeline = computePipeline(
+        context,
+        certified ? (doubles ? Words(spirv::pair_setup_certified_doubles_comp) : spirv::pair_setup_certified_comp)
+                  : (doubles ? Words(spirv::pair_setup_doubles_comp) : spirv::pair_setup_comp),
+        {}, *layout, "pair set-up");
     VOXTACT_TRY(pipeline);
-    return PairSetup(context, desc, *pipeline);
+    setup.pipeline_ = *pipeline;
+    if (doubles) {
+        const Result<VkPipeline> ofHost = computePipeline(
+            context, certified ? Words(spirv::pair_setup_certified_host_comp) : spirv::pair_setup_host_comp, {},
+            *layout, "pair set-up of host poses");
+        VOXTACT_TRY(ofHost);
+        setup.hostPipeline_ = *ofHost;
+    }
+    return setup;
 }
 
-void PairSetup::recordItems(VkCommandBuffer commandBuffer, const Batch& batch, const ResultsImpl& results) const {
-    recordItems(commandBuffer, batch, results, 0);
+bool PairSetup::stagePoses(const Batch& batch, const ResultsImpl& results) const noexcept {
+    if (hostPipeline_ == VK_NULL_HANDLE || results.pairs < kFewestHostPoses || results.pairs > results.stagedPoseRoom) {
+        return false;
+    }
+    auto* to = static_cast<std::byte*>(results.staging.mapped);
+    for (const BatchItem& item : batch.items) {
+        if (!std::ranges::all_of(item.world_from_object, staysNormal)) {
+            return false;
+        }
+        if (!item.world_from_object.empty()) {
+            std::memcpy(to, item.world_from_object.data(), item.world_from_object.size_bytes());
+        }
+        to += item.pairs() * sizeof(Mat4);
+    }
+    return true;
+}
+
+PairSetup::Source PairSetup::sourceOf(const BatchItem& item, const ResultsImpl& results,
+                                      std::uint32_t firstPair) const {
+    if (item.poses == nullptr) {
+        return {hostPipeline_, results.stagedPoses.set, firstPair * VOXTACT_HOST_POSE_WORDS, VOXTACT_HOST_POSE_WORDS};
+    }
+    const PoseBufferImpl& poses = item.poses->impl();
+    return {pipeline_, poses.descriptors.set, poses.firstWord, poses.words};
 }
 
 void PairSetup::recordItems(VkCommandBuffer commandBuffer, const Batch& batch, const ResultsImpl& results,
+                            bool staged) const {
+    recordItems(commandBuffer, batch, results, staged, 0);
+}
+
+void PairSetup::recordItems(VkCommandBuffer commandBuffer, const Batch& batch, const ResultsImpl& results, bool staged,
                             std::size_t firstItem) const {
     const std::size_t end = std::min<std::size_t>(batch.items.size(), firstItem + VOXTACT_SETUP_ITEMS);
     const bool certified = rowOf(desc_.projection).certified;
     const Cameras cameras(desc_.projection, batch.view);
     BufferUpdate<ItemWords> update(*context_, commandBuffer, results.transforms.get(), setupByte(results));
     for (const BatchItem& item : batch.items.subspan(firstItem, end - firstItem)) {
-        if (item.poses == nullptr) {
+        if (item.poses == nullptr && !staged) {
             update.skip(1);
         } else {
             update.add(certified ? wordsOf(item.volume->impl().pairGrid) : viewItem(item, cameras));
@@ -142,12 +212,10 @@ void PairSetup::recordItems(VkCommandBuffer commandBuffer, const Batch& batch, c
     update.finish();
 }
 
-void PairSetup::record(VkCommandBuffer commandBuffer, const Batch& batch, const ResultsImpl& results,
+void PairSetup::record(VkCommandBuffer commandBuffer, const Batch& batch, const ResultsImpl& results, bool staged,
                        std::uint32_t how) const {
-    const DeviceFunctions& vk = context_->vk;
-    vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_);
-    vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, context_->setupLayout.get(),
-                             VOXTACT_SET_SETUP, 1, &results.setup.set, 0, nullptr);
+    context_->vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, context_->setupLayout.get(),
+                                       VOXTACT_SET_SETUP, 1, &results.setup.set, 0, nullptr);
     const ProjectionRow& row = rowOf(desc_.projection);
     shader::PairSetupConstants constants{};
     constants.how = how;
@@ -158,34 +226,34 @@ void PairSetup::record(VkCommandBuffer commandBuffer, const Batch& batch, const 
         if (i > 0 && i % VOXTACT_SETUP_ITEMS == 0) {
             barrier(*context_, commandBuffer, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, 0,
                     VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
-            recordItems(commandBuffer, batch, results, i);
+            recordItems(commandBuffer, batch, results, staged, i);
             barrier(*context_, commandBuffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                     VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
         }
         const BatchItem& item = batch.items[i];
         constants.item = static_cast<std::uint32_t>(i);
         constants.setupWord = static_cast<std::uint32_t>(i % VOXTACT_SETUP_ITEMS * VOXTACT_SETUP_WORDS);
-        if (item.poses != nullptr) {
-            recordItem(commandBuffer, item, constants);
+        const auto pairs = static_cast<std::uint32_t>(item.pairs());
+        if (item.poses != nullptr || staged) {
+            recordItem(commandBuffer, sourceOf(item, results, constants.firstPair), pairs, constants);
         }
-        constants.firstPair += static_cast<std::uint32_t>(item.pairs());
+        constants.firstPair += pairs;
     }
 }
 
-void PairSetup::recordItem(VkCommandBuffer commandBuffer, const BatchItem& item,
+void PairSetup::recordItem(VkCommandBuffer commandBuffer, const Source& source, std::uint32_t pairs,
                            shader::PairSetupConstants constants) const {
     const DeviceFunctions& vk = context_->vk;
-    const PoseBufferImpl& poses = item.poses->impl();
+    vk.CmdBindPipeline(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, source.pipeline);
     vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_COMPUTE, context_->setupLayout.get(),
-                             VOXTACT_SET_SETUP_POSES, 1, &poses.descriptors.set, 0, nullptr);
-    constants.poseWords = poses.words;
-    const auto pairs = static_cast<std::uint32_t>(item.pairs());
+                             VOXTACT_SET_SETUP_POSES, 1, &source.poses, 0, nullptr);
+    constants.poseWords = source.words;
     const std::uint32_t most =
         std::min(context_->limits.maxComputeWorkGroupCount[0], UINT32_MAX / VOXTACT_COMPUTE_GROUP);
     for (std::uint32_t done = 0; done < pairs; done += constants.pairs) {
         constants.pairs = std::min(pairs - done, most * VOXTACT_COMPUTE_GROUP);
         constants.firstPose = done;
-        constants.poseWord = poses.firstWord + done * poses.words;
+        constants.poseWord = source.firstWord + done * source.words;
         vk.CmdPushConstants(commandBuffer, context_->setupLayout.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
                             sizeof constants, &constants);
         vk.CmdDispatch(commandBuffer, (constants.pairs + VOXTACT_COMPUTE_GROUP - 1) / VOXTACT_COMPUTE_GROUP, 1, 1);

@@ -92,6 +92,22 @@ void recordEmptyResults(const ContextImpl& context, VkCommandBuffer commandBuffe
     update.finish();
 }
 
+/// What the passes need of the pairs whose poses the host has, made by the host.
+Result<void> recordPairs(const ContextImpl& context, VkCommandBuffer commandBuffer, const Batch& batch,
+                         const ResultsImpl& results, const DetectorDesc& desc) {
+    Staging staging;
+    if (results.staging.buffer && results.pairs >= kFewestStaged) {
+        staging.buffer = &results.staging;
+    }
+    if (rowOf(desc.projection).certified) {
+        recordCertifiedPairs(context, commandBuffer, batch, results, staging);
+    } else {
+        recordTransforms(context, commandBuffer, batch, results, desc.projection, staging);
+    }
+    recordEmptyResults(context, commandBuffer, batch, results, howOf(desc), staging);
+    return staging.used > 0 ? flush(results.context, results.staging) : Result<void>();
+}
+
 /// What was written is ready for the shaders of a method, and for commands that write the results.
 void barrierToShaders(const ContextImpl& context, VkCommandBuffer commandBuffer, VkPipelineStageFlags2 stages,
                       VkAccessFlags2 access, const DetectorDesc& desc) {
@@ -123,10 +139,6 @@ std::uint32_t transformsPerPair(Projection projection) noexcept {
 Result<void> prepareResults(const ContextImpl& context, VkCommandBuffer commandBuffer, const Batch& batch,
                             const ResultsImpl& results, const DetectorDesc& desc, const std::optional<PairSetup>& setup,
                             std::uint32_t rounds) {
-    Staging staging;
-    if (results.staging.buffer && results.pairs >= kFewestStaged) {
-        staging.buffer = &results.staging;
-    }
     if (results.timestamps) {
         context.vk.CmdResetQueryPool(commandBuffer, results.timestamps.get(), 0, 2);
     }
@@ -135,8 +147,13 @@ Result<void> prepareResults(const ContextImpl& context, VkCommandBuffer commandB
     barrier(context, commandBuffer, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
             VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
             VK_ACCESS_2_TRANSFER_WRITE_BIT);
+    const bool staged = setup && setup->stagePoses(batch, results);
+    if (staged) {
+        VOXTACT_TRY(flush(results.context, results.staging));
+    } else {
+        VOXTACT_TRY(recordPairs(context, commandBuffer, batch, results, desc));
+    }
     if (rowOf(desc.projection).certified) {
-        recordCertifiedPairs(context, commandBuffer, batch, results, staging);
         recordQueueHeaders(context, commandBuffer, results, rounds);
         if (desc.counters) {
             recordNoCounters(context, commandBuffer, results);
@@ -150,12 +167,6 @@ Result<void> prepareResults(const ContextImpl& context, VkCommandBuffer commandB
         if (desc.motion) {
             recordMotions(context, commandBuffer, batch, results, *desc.motion);
         }
-    } else {
-        recordTransforms(context, commandBuffer, batch, results, desc.projection, staging);
-    }
-    recordEmptyResults(context, commandBuffer, batch, results, howOf(desc), staging);
-    if (staging.used > 0) {
-        VOXTACT_TRY(flush(results.context, results.staging));
     }
     if (desc.outputs.any()) {
         recordOutputs(context, commandBuffer, batch, *results.outputs);
@@ -163,16 +174,16 @@ Result<void> prepareResults(const ContextImpl& context, VkCommandBuffer commandB
     if (rowOf(desc.method).query) {
         context.vk.CmdResetQueryPool(commandBuffer, results.occlusion.get(), 0, results.pairs);
     }
-    if (!setup || !hasDevicePoses(batch)) {
+    if (!setup || !(staged || hasDevicePoses(batch))) {
         barrierToShaders(context, commandBuffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                          desc);
         return {};
     }
-    setup->recordItems(commandBuffer, batch, results);
+    setup->recordItems(commandBuffer, batch, results, staged);
     barrier(context, commandBuffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
             VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
             VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
-    setup->record(commandBuffer, batch, results, howOf(desc));
+    setup->record(commandBuffer, batch, results, staged, howOf(desc));
     barrierToShaders(context, commandBuffer,
                      VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                      VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, desc);

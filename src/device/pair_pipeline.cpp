@@ -3,6 +3,7 @@
 
 #include "core/base/try.h"
 #include "core/batch/batch_cutter.h"
+#include "detect/many_poses.h"
 #include "device/created.h"
 
 #include <algorithm>
@@ -44,6 +45,7 @@ struct PairPipeline::State {
 
     const VulkanDevice& device;
     const Detector& detector;
+    std::optional<Detector> forMany; ///< forManyPoses(); it then takes the place of the other
     PipelineDesc desc;
     ResultRing results;
     std::vector<Flight> flights;
@@ -105,7 +107,7 @@ Result<void> PairPipeline::State::launch(Flight& flight, const Batch& part) {
     if (result != VK_SUCCESS) {
         return vulkanError(result, "recording the pairs failed");
     }
-    VOXTACT_TRY(detector.cmdDetect(flight.commands, part, *flight.results));
+    VOXTACT_TRY((forMany ? *forMany : detector).cmdDetect(flight.commands, part, *flight.results));
     VOXTACT_TRY(flight.results->cmdReadBack(flight.commands));
     result = vk.vkEndCommandBuffer(flight.commands);
     if (result == VK_SUCCESS) {
@@ -250,6 +252,12 @@ Result<PairPipeline> PairPipeline::create(const VulkanDevice& device, const Cont
     Result<ResultRing> ring = ResultRing::create(context, how.frames, results);
     VOXTACT_TRY(ring);
     auto state = std::make_unique<State>(device, detector, how, std::move(*ring));
+    if (const std::optional<DetectorDesc> many =
+            forManyPoses(context.impl(), detector.desc(), how.pairsPerSubmission)) {
+        Result<Detector> made = Detector::create(context, *many);
+        VOXTACT_TRY(made);
+        state->forMany = std::move(*made);
+    }
     for (Flight& flight : state->flights) {
         VOXTACT_TRY(state->makeFlight(flight));
     }

@@ -40,6 +40,7 @@ void readProperties(ContextImpl& context) {
     properties.pNext = &maintenance3;
     context.vk.GetPhysicalDeviceProperties2(context.physicalDevice, &properties);
     context.limits = properties.properties.limits;
+    context.onHost = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     context.maxAllocation = maintenance3.maxMemoryAllocationSize;
     context.floatControls = readFloatControls(floats);
     context.floatControls.doubles = context.floatControls.doubles && context.features.shaderFloat64;

@@ -37,6 +37,7 @@ struct ContextImpl : SharedImpl<ContextImpl> {
     VkPhysicalDeviceLimits limits{};
     VkDeviceSize maxAllocation = 0;
     FloatControls floatControls; ///< asked for by every shader module
+    bool onHost = false;         ///< the device is the host's processor
     /// llvmpipe (seen in Mesa 22.3) counts too much when the memory of its scene runs out while the end of a query is
     /// being put into the tiles: some tiles then end the query twice. A scene that is flushed after each query does
     /// not fill up.

@@ -169,7 +169,7 @@ Result<void> makeBuffers(ResultsImpl& out, const ResultsDesc& desc) {
          "pair results on the host"},
         {desc.staged, out.staging,
          VkDeviceSize{out.maxPairs} * kMostTransformsPerPair * sizeof(shader::PairTransform) + bytes,
-         VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::Upload, "staged pairs"},
+         VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, MemoryUse::Upload, "staged pairs"},
     };
     for (const Wanted& each : wanted) {
         if (!each.wanted) {
@@ -227,7 +227,7 @@ Result<std::unique_ptr<ResultsImpl>> makeResults(ContextImpl& context, const Res
     impl->motionRoom = desc.motions && impl->queueRoom > 0;
     impl->timestampBits = desc.timestamps ? context.timestampBits(desc.queueFamily) : 0;
     VOXTACT_TRY(makeBuffers(*impl, desc));
-    for (const auto make : {makeQueries, makeDescriptors, makeSetupSet}) {
+    for (const auto make : {makeQueries, makeDescriptors, makeSetupSets}) {
         VOXTACT_TRY(make(*impl));
     }
     if (desc.room) {

@@ -36,8 +36,10 @@ struct ResultsImpl {
     Buffer readBack{}; ///< the host's copy, CertifiedCounters, the number of it, ClearanceResults, ClosestResults,
                        ///< ClearanceResults of labels, MotionResults; empty when not asked for
     Buffer staging{};  ///< ResultsDesc::staged: of maxPairs, the most that any projection has; else empty
-    Owned<VkQueryPool> occlusion{};  ///< maxPairs queries
-    Owned<VkQueryPool> timestamps{}; ///< two, or none
+    DescriptorSet stagedPoses{};      ///< of `staging`: doubles, a Mat4 a pose; null where that is empty
+    std::uint32_t stagedPoseRoom = 0; ///< of those, where a shader reads them
+    Owned<VkQueryPool> occlusion{};   ///< maxPairs queries
+    Owned<VkQueryPool> timestamps{};  ///< two, or none
     DescriptorSet descriptors{};
     DescriptorSet setup{};                  ///< VOXTACT_SET_SETUP
     std::unique_ptr<OutputStore> outputs{}; ///< null without room for outputs

@@ -1,15 +1,23 @@
 // SPDX-License-Identifier: MIT
 // ResultsDesc::staged: what a batch is recorded with goes through mapped memory, and no answer depends on it.
+#include "core/geometry/projection.h"
 #include "core/method/method_table.h"
+#include "detect/many_poses.h"
 #include "detect/results/results_impl.h"
+#include "device/pair_pipeline.h"
+#include "gpu/context_impl.h"
 #include "raw_fixture.h"
+#include "shared.h"
 #include "support/scenes.h"
 #include "voxtact/samples.h"
 
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace voxtact::test {
 namespace {
@@ -69,6 +77,150 @@ TEST_F(StagedTest, AnswersAreTheSameByEveryMethodAndProjection) {
     EXPECT_GT(copied, kMostPairs * sizeof(PairResult));
 }
 
+/// Poses of doubles: near, far, scaled, sheared and mirrored.
+std::vector<Mat4> anyDoubles(const Grid& grid, std::size_t count, std::mt19937_64& random) {
+    std::vector<Mat4> poses = randomPoses(grid, count, 1.2, random);
+    for (Mat4& pose : poses) {
+        const double scale = std::pow(10.0, uniform(random, -12, 12));
+        for (std::size_t i = 0; i < 12 && random() % 3 == 0; ++i) {
+            pose[i] *= i % 4 == 3 ? 1 : scale * uniform(random, -1, 1);
+        }
+        pose[12 + random() % 3] *= random() % 4 == 0 ? std::pow(10.0, uniform(random, 0, 60)) : 1;
+    }
+    return poses;
+}
+
+/// What the passes get of pairs is the host's to the last bit when the device makes it of poses of the host's.
+TEST_F(StagedTest, ManyPosesBecomeTheSamePairsOnTheDevice) {
+    constexpr std::uint32_t kMany = 2 * kFewestHostPoses;
+    std::mt19937_64 random(testSeed());
+    const TransferFunction function = upload(byteRamp(), {0, 255});
+    const Mesh mesh = upload(makeFlat(0, 1, 0, 1, 0.5));
+    std::vector<Detector> hosts;
+    std::vector<Detector> devices;
+    for (const Projection projection : {Projection::Conservative, Projection::TwoView, Projection::DominantAxis}) {
+        DetectorDesc desc{.method = CountingMethod::Compute, .projection = projection};
+        hosts.push_back(take(Detector::create(context(), desc)));
+        desc.devicePoses = true;
+        devices.push_back(take(Detector::create(context(), desc)));
+    }
+    Results embedded = take(Results::create(context(), {.maxPairs = kMany}));
+    Results staged = take(Results::create(context(), {.maxPairs = kMany, .staged = true}));
+    std::size_t finite = 0;
+    for (std::size_t scene = 0; scene < randomCases(300, 12); ++scene) {
+        SCOPED_TRACE(scene);
+        Grid grid = unitGrid(6);
+        const Mat4 turned = randomRotation(random);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            grid.spacing[axis] = uniform(random, 0.2, 3);
+            grid.origin[axis] = uniform(random, -100, 100);
+            for (std::size_t other = 0; other < 3 && scene % 2 == 0; ++other) {
+                grid.direction[3 * axis + other] = turned[4 * other + axis];
+            }
+        }
+        const Volume volume = take(
+            Volume::upload(context(), queue(), makeBytes(grid, [](auto...) { return 0.0; }).view(), {.bricks = true}));
+        const std::vector<Mat4> poses = anyDoubles(grid, kMany, random);
+        const std::array items{BatchItem{&mesh, &volume, &function, std::span(poses).first(kMany / 3)},
+                               BatchItem{&mesh, &volume, &function, {}},
+                               BatchItem{&mesh, &volume, &function, std::span(poses).subspan(kMany / 3)}};
+        const Batch batch{items, {framingCamera(grid, 16, 16), 16, 16}, kDefaultThreshold};
+        for (std::size_t i = 0; i < devices.size(); ++i) {
+            const ProjectionRow& row = rowOf(devices[i].desc().projection);
+            SCOPED_TRACE(row.name);
+            const std::vector<std::byte> wanted = run(hosts[i], batch, embedded);
+            EXPECT_EQ(run(devices[i], batch, staged), wanted);
+            if (context().impl().floatControls.doubles) {
+                EXPECT_EQ(std::memcmp(staged.impl().staging.mapped, poses.data(), kMany * sizeof(Mat4)), 0)
+                    << "the poses went another way";
+            }
+            const std::size_t bytes =
+                kMany * (row.certified ? sizeof(shader::CertifiedPair) : row.views * sizeof(shader::PairTransform));
+            const std::vector<std::byte> ofHost = raw().readBuffer(embedded.impl().transforms.get(), bytes);
+            const std::vector<std::byte> ofDevice = raw().readBuffer(staged.impl().transforms.get(), bytes);
+            std::vector<float> host(bytes / sizeof(float));
+            std::vector<float> device(host.size());
+            std::memcpy(host.data(), ofHost.data(), bytes);
+            std::memcpy(device.data(), ofDevice.data(), bytes);
+            for (std::size_t word = 0; word < host.size() && !HasFailure(); ++word) {
+                EXPECT_TRUE(std::bit_cast<std::uint32_t>(host[word]) == std::bit_cast<std::uint32_t>(device[word]) ||
+                            (std::isnan(host[word]) && std::isnan(device[word])))
+                    << "word " << word << ": " << host[word] << ", " << device[word];
+                finite += std::isfinite(host[word]) ? 1U : 0U;
+            }
+        }
+    }
+    EXPECT_GT(finite, 100'000U);
+}
+
+/// Of what may become a denormal, and of few poses, the host makes the pairs, whatever the detector was made for.
+TEST_F(StagedTest, OtherPosesAreTheHostsAllTheSame) {
+    std::mt19937_64 random(testSeed());
+    const VolumeData head = take(makeBuiltinVolume("head:32"));
+    const Volume volume = take(Volume::upload(context(), queue(), head.view(), {.bricks = true}));
+    const TransferFunction function = upload(byteRamp(), {0, 255});
+    const Mesh mesh = upload(take(makeScalpel()));
+    const DetectorDesc desc{.method = CountingMethod::Compute, .projection = Projection::Conservative};
+    DetectorDesc many = desc;
+    many.devicePoses = true;
+    const Detector host = take(Detector::create(context(), desc));
+    const Detector device = take(Detector::create(context(), many));
+    Results embedded = take(Results::create(context(), {.maxPairs = kFewestHostPoses}));
+    Results staged = take(Results::create(context(), {.maxPairs = kFewestHostPoses, .staged = true}));
+    std::vector<Mat4> poses = randomPoses(head.grid, kFewestHostPoses, 1, random);
+    const auto expectTheHosts = [&](std::size_t count) {
+        const BatchItem item{&mesh, &volume, &function, std::span(poses).first(count)};
+        const Batch batch{{&item, 1}};
+        EXPECT_EQ(run(device, batch, staged), run(host, batch, embedded));
+        EXPECT_NE(std::memcmp(staged.impl().staging.mapped, poses.data(), sizeof(Mat4)), 0);
+    };
+    expectTheHosts(kFewestHostPoses - 1);
+    poses[random() % poses.size()][1 + random() % 2] = 1e-320;
+    expectTheHosts(kFewestHostPoses);
+}
+
+/// The conveniences take that way by themselves on a GPU, which this device says it is for once.
+TEST_F(StagedTest, ConveniencesMakePairsOnAGpu) {
+    if (!context().impl().floatControls.doubles) {
+        GTEST_SKIP() << "this device has no doubles";
+    }
+    std::mt19937_64 random(testSeed());
+    const VolumeData head = take(makeBuiltinVolume("head:32"));
+    const Volume volume = take(Volume::upload(context(), queue(), head.view(), {.bricks = true}));
+    const std::array points{ControlPoint{40, 0}, ControlPoint{80, 1}};
+    const TransferFunction function = upload(points, {0, 255});
+    const Mesh mesh = take(Mesh::upload(context(), queue(), take(makeScalpel()).view(), {.clusters = true}));
+    const std::vector<Mat4> poses = randomPoses(head.grid, kFewestHostPoses + 50, 1, random);
+    const BatchItem item{&mesh, &volume, &function, poses};
+    const Batch batch{{&item, 1}};
+    for (const bool yesNo : {false, true}) {
+        const DetectorDesc desc{
+            .method = CountingMethod::Compute, .projection = Projection::Conservative, .stopAtFirst = yesNo};
+        EXPECT_EQ(forManyPoses(context().impl(), desc, poses.size()).has_value(), !context().impl().onHost);
+        const std::vector<PairAnswer> wanted =
+            take(take(BlockingDetector::create(context(), desc, queue())).detect(batch)).pairs;
+        const bool onHost = std::exchange(context().impl().onHost, false);
+        EXPECT_TRUE(forManyPoses(context().impl(), desc, poses.size()).value().devicePoses);
+        EXPECT_FALSE(forManyPoses(context().impl(), desc, kFewestHostPoses - 1));
+        BlockingDetector blocking = take(BlockingDetector::create(context(), desc, queue()));
+        const std::vector<PairAnswer> found = take(blocking.detect(batch)).pairs;
+        EXPECT_FALSE(blocking.detector().desc().devicePoses);
+        std::vector<PairAnswer> piped;
+        device::PairPipeline pipeline = take(device::PairPipeline::create(
+            gpu().device, context(), blocking.detector(), {.frames = 2, .pairsPerSubmission = kFewestHostPoses}));
+        take(pipeline.run(batch, {.pair = [&](const device::TimedAnswer& timed) { piped.push_back(timed.answer); }}));
+        context().impl().onHost = onHost;
+        ASSERT_EQ(found.size(), wanted.size());
+        ASSERT_EQ(piped.size(), wanted.size());
+        for (std::size_t i = 0; i < wanted.size(); ++i) {
+            EXPECT_EQ(found[i].hit, wanted[i].hit) << i;
+            EXPECT_EQ(found[i].count, wanted[i].count) << i;
+            EXPECT_EQ(piped[i].possible, wanted[i].possible) << i;
+            EXPECT_EQ(piped[i].count, wanted[i].count) << i;
+        }
+    }
+}
+
 /// Poses on the device between those of the host, which are copied to both sides of them.
 TEST_F(StagedTest, BesidePosesOnTheDevice) {
     std::mt19937_64 random(testSeed());
@@ -87,16 +239,22 @@ TEST_F(StagedTest, BesidePosesOnTheDevice) {
     }
     const PoseBuffer onDevice =
         take(PoseBuffer::wrap(context(), {.buffer = buffer.buffer, .count = static_cast<std::uint32_t>(poses.size())}));
+    const std::vector<Mat4> more = randomPoses(head.grid, kFewestHostPoses, 1, random);
     const BatchItem host{&mesh, &volume, &function, poses};
+    const BatchItem many{&mesh, &volume, &function, more};
     BatchItem device{.mesh = &mesh, .volume = &volume, .transferFunction = &function, .poses = &onDevice};
     const std::array mixed{host, device, host};
     const std::array plain{host, host, host};
     const Detector detector =
         take(Detector::create(context(), {.method = CountingMethod::Compute, .devicePoses = true}));
-    Results staged = take(Results::create(context(), {.maxPairs = 210, .staged = true}));
-    Results embedded = take(Results::create(context(), {.maxPairs = 210}));
+    Results staged = take(Results::create(context(), {.maxPairs = 600, .staged = true}));
+    Results embedded = take(Results::create(context(), {.maxPairs = 600}));
     EXPECT_EQ(run(detector, {mixed, view, kDefaultThreshold}, staged),
               run(detector, {plain, view, kDefaultThreshold}, embedded));
+    const std::array mixedMany{device, many, device, host};
+    const std::array plainMany{host, many, host, host};
+    EXPECT_EQ(run(detector, {mixedMany, view, kDefaultThreshold}, staged),
+              run(detector, {plainMany, view, kDefaultThreshold}, embedded));
 }
 
 } // namespace
