@@ -25,6 +25,7 @@ layout(push_constant) uniform Item { CertifiedConstants constants; };
 
 // One addition a work group: a carry that is not needed costs nothing.
 const bool kCarry = true;
+const bool kYesNo = kStopAtFirst;
 
 #include "stored.glsl"
 #ifdef MARGIN

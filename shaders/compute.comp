@@ -27,6 +27,7 @@ layout(push_constant) uniform Item { ComputeConstants constants; };
 
 // One addition a work group: a carry that is not needed costs nothing.
 const bool kCarry = true;
+const bool kYesNo = false;
 
 #include "survives.glsl"
 #include "count.glsl"

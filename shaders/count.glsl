@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Adds to the counter of a pair. Expects `results` and `kCarry`.
+// Adds to the counter of a pair, which with kYesNo is 0 or 1. Expects `results`, `kCarry` and `kYesNo`.
 #ifndef VOXTACT_COUNT_GLSL
 #define VOXTACT_COUNT_GLSL
 
-/// Exact to 64 bits: whoever makes the low word wrap carries one.
+/// Some survivors: more than none. Exact to 64 bits: whoever makes the low word wrap carries one.
 void addSurvivors(uint pair, uint survivors) {
+    if (kYesNo) {
+        atomicOr(results[pair].countLow, 1u);
+        return;
+    }
     const uint before = atomicAdd(results[pair].countLow, survivors);
     if (kCarry && before > 0xffffffffu - survivors) {
         atomicAdd(results[pair].countHigh, 1u);

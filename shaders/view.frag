@@ -15,6 +15,7 @@
 
 layout(constant_id = VOXTACT_CONSTANT_RANGE_TEST) const bool kRangeTest = true;
 layout(constant_id = VOXTACT_CONSTANT_CARRY) const bool kCarry = true;
+const bool kYesNo = false;
 layout(constant_id = VOXTACT_CONSTANT_EXACT_FILTER) const bool kExactFilter = false;
 
 layout(set = VOXTACT_SET_VOLUME, binding = 0) uniform sampler3D volume;

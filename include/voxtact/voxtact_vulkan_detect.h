@@ -25,7 +25,7 @@ typedef struct vxt_detector_desc {
     uint32_t stop_at_first;     ///< CONSERVATIVE without outputs: the count is then 0 or 1, a lower bound; default 0
     uint32_t overestimate;      ///< DOMINANT_AXIS: every pixel that a triangle touches gives a fragment; default 0
     uint32_t counters;          ///< CONSERVATIVE: what the passes do is counted, for vxt_answer_counters(); default 0
-    uint32_t device_poses;      ///< items may have vxt_item::poses; the queue then needs compute, too; default 0
+    uint32_t device_poses;      ///< items may have vxt_item::poses: voxtact::DetectorDesc::devicePoses; default 0
     /// CONSERVATIVE with stop_at_first: whether anything opaque is within so many mm is asked; 0 to 1e6; 0: the touch
     double margin;
     /// CONSERVATIVE without a margin and outputs: how near each pair is, to so many mm, from 1e-6 on, for
@@ -202,7 +202,7 @@ typedef enum vxt_device_part {
 
 /// Where the answers of one batch in flight go: voxtact::Results.
 typedef struct vxt_results vxt_results;
-/// Allocates the buffers.
+/// Allocates the buffers. A null `desc` is all defaults.
 VXT_CHECKED vxt_result vxt_results_create(const vxt_context* context, const vxt_results_desc* desc,
                                           vxt_results** results);
 /// Where a part of the answers is on the device; nothing where there is no room for it.
@@ -268,7 +268,7 @@ VXT_CHECKED vxt_result vxt_answer_motions(const vxt_answer* answer, vxt_motions*
 
 /// Results for frames in flight: voxtact::ResultRing.
 typedef struct vxt_result_ring vxt_result_ring;
-/// `frames`: how many may be in flight.
+/// `frames`: how many may be in flight. A null `desc` is all defaults.
 VXT_CHECKED vxt_result vxt_result_ring_create(const vxt_context* context, uint32_t frames, const vxt_results_desc* desc,
                                               vxt_result_ring** ring);
 /// The slot of a frame, for recording; the ring's own, valid until its next vxt_result_ring_begin(). The caller knows
@@ -282,7 +282,7 @@ VXT_API void vxt_result_ring_destroy(vxt_result_ring* ring);
 
 /// Decides which pairs touch: voxtact::Detector.
 typedef struct vxt_detector vxt_detector;
-/// UNSUPPORTED, with the missing feature or limit named, when the device cannot do it.
+/// UNSUPPORTED, with the missing feature or limit named, when the device cannot do it. A null `desc` is all defaults.
 VXT_CHECKED vxt_result vxt_detector_create(const vxt_context* context, const vxt_detector_desc* desc,
                                            vxt_detector** detector);
 /// Records the detection of a batch: no allocation of device memory, no submission, no wait, no map. On error nothing
@@ -297,7 +297,7 @@ VXT_API void vxt_detector_destroy(vxt_detector* detector);
 
 /// Records, submits on the caller's queue, waits and reads: voxtact::BlockingDetector.
 typedef struct vxt_blocking_detector vxt_blocking_detector;
-/// A list of contacts is cut beyond `most_contacts`; 0 is 2^16.
+/// A list of contacts is cut beyond `most_contacts`; 0 is 2^16. A null `desc` is all defaults.
 VXT_CHECKED vxt_result vxt_blocking_detector_create(const vxt_context* context, const vxt_detector_desc* desc,
                                                     const vxt_queue* queue, uint32_t most_contacts,
                                                     vxt_blocking_detector** detector);

@@ -11,7 +11,7 @@ namespace voxtact {
 
 namespace {
 
-Result<Owned<VkShaderModule>> makeModule(ContextImpl& context, std::span<const std::uint32_t> spirv) {
+Result<Owned<VkShaderModule>> makeModule(ContextImpl& context, std::span<const std::uint32_t> spirv, const char* name) {
     const std::vector<std::uint32_t> words = withFloatControls(spirv, context.floatControls);
     VkShaderModuleCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
@@ -22,6 +22,7 @@ Result<Owned<VkShaderModule>> makeModule(ContextImpl& context, std::span<const s
         result != VK_SUCCESS) {
         return context.failure(result, "making a shader module");
     }
+    nameObject(context, VK_OBJECT_TYPE_SHADER_MODULE, handle, name);
     return Owned<VkShaderModule>(context, handle, [](ContextImpl& c, VkShaderModule module) {
         c.vk.DestroyShaderModule(c.device, module, c.allocator);
     });
@@ -137,9 +138,9 @@ struct FixedState {
 } // namespace
 
 Result<Owned<VkPipeline>> makeRasterPipeline(ContextImpl& context, const RasterPipelineDesc& desc) {
-    Result<Owned<VkShaderModule>> vertex = makeModule(context, desc.vertexSpirv);
+    Result<Owned<VkShaderModule>> vertex = makeModule(context, desc.vertexSpirv, desc.name);
     VOXTACT_TRY(vertex);
-    Result<Owned<VkShaderModule>> fragment = makeModule(context, desc.fragmentSpirv);
+    Result<Owned<VkShaderModule>> fragment = makeModule(context, desc.fragmentSpirv, desc.name);
     VOXTACT_TRY(fragment);
     const Specialization constants(desc.constants);
     VkPipelineShaderStageCreateInfo stages[] = {stage(VK_SHADER_STAGE_VERTEX_BIT, vertex->get()),
@@ -174,7 +175,7 @@ Result<Owned<VkPipeline>> makeRasterPipeline(ContextImpl& context, const RasterP
 Result<Owned<VkPipeline>> makeComputePipeline(ContextImpl& context, std::span<const std::uint32_t> spirv,
                                               std::span<const ShaderConstant> constants, VkPipelineLayout layout,
                                               const char* name) {
-    Result<Owned<VkShaderModule>> module = makeModule(context, spirv);
+    Result<Owned<VkShaderModule>> module = makeModule(context, spirv, name);
     VOXTACT_TRY(module);
     const Specialization specialization(constants);
     VkComputePipelineCreateInfo info{};

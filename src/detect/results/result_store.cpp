@@ -53,6 +53,9 @@ Result<void> checkInto(const ContextImpl& context, const ResultsDesc& desc) {
     if (desc.into.buffer == VK_NULL_HANDLE) {
         return {};
     }
+    if (desc.into.size == VK_WHOLE_SIZE) {
+        return refuse("ResultsDesc::into has the size VK_WHOLE_SIZE; it must be said in bytes");
+    }
     // Results of 64-bit queries begin at multiples of 8.
     const VkDeviceSize alignment = std::max<VkDeviceSize>(context.limits.minStorageBufferOffsetAlignment, 8);
     if (desc.into.offset % alignment != 0) {

@@ -204,10 +204,32 @@ TEST_F(CallerResultsTest, EachFrameOfARingHasItsPart) {
     }
 }
 
+/// Who reads the words on the device finds 0 or 1 where yes or no is asked, however many survivors come at once: here
+/// no vertex is in the volume, and many cells of a triangle are certain.
+TEST_F(CallerResultsTest, AYesIsOne) {
+    const Volume volume = take(Volume::upload(
+        context(), queue(), makeBytes(unitGrid(20), [](auto...) { return 255.0; }).view(), {.bricks = true}));
+    const TransferFunction function = upload(byteRamp(), {0, 255});
+    const Mesh mesh = upload(makeFlat(-3, 4, -2.5, 3.5, 0.43));
+    const std::vector<Mat4> poses(10, identity());
+    const BatchItem item{&mesh, &volume, &function, poses};
+    DetectorDesc desc{.method = CountingMethod::Compute, .projection = Projection::Conservative};
+    Results results = take(Results::create(context(), {.maxPairs = 10}));
+    for (const bool yesNo : {false, true}) {
+        desc.stopAtFirst = yesNo;
+        run(take(Detector::create(context(), desc)), {{&item, 1}}, results);
+        for (const PairResult& pair : take(results.read())) {
+            EXPECT_EQ(pair.countLow == 1, yesNo) << "pair " << pair.pair << ": " << pair.countLow;
+        }
+    }
+}
+
 TEST_F(CallerResultsTest, WhatHasNoRoomIsRefusedByName) {
     const RawVulkan::HostBuffer mine = untouched(4096);
     EXPECT_THAT(refusal({.maxPairs = 10, .into = {mine.buffer, 0, 239}}),
                 HasSubstr("ResultsDesc::into has 239 bytes, 10 pairs need 240"));
+    EXPECT_THAT(refusal({.maxPairs = 10, .into = {mine.buffer, 0, VK_WHOLE_SIZE}}),
+                HasSubstr("ResultsDesc::into has the size VK_WHOLE_SIZE"));
     EXPECT_THAT(refusal({.maxPairs = 10, .into = {mine.buffer, 4, 240}}),
                 HasSubstr("ResultsDesc::into begins at byte 4; on this device that must be a multiple of "));
     const VkDeviceSize last = std::numeric_limits<VkDeviceSize>::max() / 4096 * 4096;
@@ -217,6 +239,7 @@ TEST_F(CallerResultsTest, WhatHasNoRoomIsRefusedByName) {
     ASSERT_FALSE(ring.ok());
     EXPECT_THAT(ring.error().text, HasSubstr("ResultsDesc::into has 751 bytes, 3 frames of 10 pairs need 752"));
     EXPECT_TRUE(ResultRing::create(context(), 3, {.maxPairs = 10, .into = {mine.buffer, 0, 752}}).ok());
+    EXPECT_FALSE(ResultRing::create(context(), 3, {.maxPairs = 10, .into = {mine.buffer, 0, VK_WHOLE_SIZE}}).ok());
 }
 
 } // namespace
