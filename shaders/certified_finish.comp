@@ -29,6 +29,26 @@ struct Placed {
 uint survivors = 0;
 bool undecided = false;
 
+#include "exact_language.h"
+
+/// Corners with the range of the voxels around this cell alone: one voxel of a brick may be far from all others.
+CertifiedCorners cornersAround(CertifiedCorners corners, ivec3 cell) {
+    CertifiedCorners around = corners;
+    around.wideLo = corners.wideHi;
+    around.wideHi = corners.wideLo;
+    ROLLED for (int i = 0; i < 64; ++i) {
+        const float stored = storedAt(cell - 1 + ivec3(i & 3, (i >> 2) & 3, i >> 4));
+        around.wideLo = certifiedMin(around.wideLo, stored);
+        around.wideHi = certifiedMax(around.wideHi, stored);
+    }
+    if (!(around.wideLo <= around.wideHi)) {
+        return corners; // none of them is a number
+    }
+    return around;
+}
+
+#include "exact_language.h"
+
 /// The attempts at a cell: as the first pass; precisely; the part of it that is certainly in the domain.
 void decideCell(Placed triangle, ivec3 cell, vec4 range) {
     const CertifiedCorners corners = cornersOf(cell, range);
@@ -47,7 +67,8 @@ void decideCell(Placed triangle, ivec3 cell, vec4 range) {
             count = certifiedBegin(opacities(), triangle.rounded, known, cell.x, cell.y, cell.z, polygon);
         } else {
             if (attempt == 1) {
-                known = preciseCell(constants.item, triangle.precisely, corners, cell.x, cell.y, cell.z);
+                known = preciseCell(constants.item, triangle.precisely, cornersAround(corners, cell), cell.x, cell.y,
+                                    cell.z);
             } else if (preciseCrosses(known)) {
                 known = preciseWithin(known);
             } else {

@@ -313,7 +313,7 @@ template <class Kept, class Mode> class Decider {
     }
 
     void decideAgain(std::int32_t x, std::int32_t y, std::int32_t z, const BrickCells& known) {
-        const shader::CertifiedCorners corners = cells_.corners(x, y, z, known);
+        const shader::CertifiedCorners corners = cells_.cornersAround(x, y, z, known);
         shader::CertifiedCell cell = shader::preciseCell(item_, precise_, corners, x, y, z);
         shader::CertifiedWitness witness{};
         int verdict = settleAgain(cell, x, y, z, false, witness);

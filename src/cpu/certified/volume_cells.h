@@ -5,6 +5,7 @@
 #include "cpu/certified/certified_pair.h"
 #include "cpu/scene/stored_voxels.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -81,6 +82,9 @@ template <class Kept> class VolumeCells {
                 known.wideLo,
                 known.wideHi};
     }
+    /// The same with the range of the voxels around this cell alone: one voxel of a brick may be far from all others.
+    [[nodiscard]] shader::CertifiedCorners cornersAround(std::int32_t x, std::int32_t y, std::int32_t z,
+                                                         const BrickCells& known) const;
     [[nodiscard]] shader::CertifiedCell cell(std::int32_t x, std::int32_t y, std::int32_t z, const BrickCells& known,
                                              float delta) const {
         return shader::certifiedCell(item_, corners(x, y, z, known), x, y, z, delta);
@@ -105,6 +109,25 @@ template <class Kept> class VolumeCells {
     const Kept* voxels_;
     shader::CertifiedItem item_;
 };
+
+template <class Kept>
+shader::CertifiedCorners VolumeCells<Kept>::cornersAround(std::int32_t x, std::int32_t y, std::int32_t z,
+                                                          const BrickCells& known) const {
+    const shader::CertifiedCorners inBrick = corners(x, y, z, known);
+    shader::CertifiedCorners around = inBrick;
+    around.wideLo = inBrick.wideHi;
+    around.wideHi = inBrick.wideLo;
+    // The border that the kept image has is one voxel wide.
+    const auto place = [](std::int32_t of, std::int32_t size) { return std::clamp(of + 1, 0, size + 1); };
+    for (std::int32_t i = 0; i < 64; ++i) {
+        const Kept* at = voxels_ + place(x - 1 + (i & 3), item_.sizeX) +
+                         place(y - 1 + (i >> 2 & 3), item_.sizeY) * volume_.image.stride[1] +
+                         place(z - 1 + (i >> 4), item_.sizeZ) * volume_.image.stride[2];
+        around.wideLo = shader::certifiedMin(around.wideLo, storedValue(*at));
+        around.wideHi = shader::certifiedMax(around.wideHi, storedValue(*at));
+    }
+    return around.wideLo <= around.wideHi ? around : inBrick; // where none of them is a number
+}
 
 template <class Kept>
 bool VolumeCells<Kept>::vertexProves(const shader::VoxelPoint& vertex, float delta,

@@ -209,6 +209,30 @@ TEST(CertifiedExtremes, APoseBeyondFloatsIsNotCalledACertainMiss) {
     }
 }
 
+/// A voxel that is far from all others, as what stands for no data may be, costs certainty about itself alone.
+TEST(CertifiedExtremes, AnOutlierDoesNotSpoilItsBrick) {
+    const std::uint64_t seed = testSeed();
+    cpu::Detector detector = take(
+        cpu::Detector::create({.threads = 1, .projection = Projection::Conservative, .outputs = {.triangles = true}}));
+    std::uint64_t hits = 0;
+    for (std::uint64_t number = 0; number < randomCases(300, 30); ++number) {
+        const PairAnswer plain = take(askEngine(detector, outlierCase(seed + number, 10, false))).pair;
+        hits += plain.hit ? 1U : 0U;
+        for (const double outlier : {-1e5, 1e7, -1e20, -3.4e38, 3.4e38}) {
+            SCOPED_TRACE("VOXTACT_TEST_SEED=" + std::to_string(seed) + ", case " + std::to_string(number) + ", " +
+                         std::to_string(outlier));
+            const PairAnswer found = take(askEngine(detector, outlierCase(seed + number, outlier, false))).pair;
+            EXPECT_EQ(found.count, plain.count);
+            EXPECT_EQ(found.possible, plain.possible);
+            const CertifiedCase near = outlierCase(seed + number, outlier, true);
+            EXPECT_EQ(complaints(take(askEngine(detector, near)), take(oracle::certifiedOracle(near.scene.pair())),
+                                 countCells(near)),
+                      "");
+        }
+    }
+    EXPECT_GT(hits, 5U);
+}
+
 TEST(CertifiedExtremes, WhatDependsOnDenormalsIsPossible) {
     cpu::Detector detector = take(
         cpu::Detector::create({.threads = 1, .projection = Projection::Conservative, .outputs = {.triangles = true}}));

@@ -417,4 +417,29 @@ CertifiedCase makeCertifiedCase(std::uint64_t seed, std::uint64_t number) {
     return out;
 }
 
+CertifiedCase outlierCase(std::uint64_t seed, double outlier, bool near) {
+    std::mt19937_64 random(seed);
+    OracleScene scene;
+    Grid grid;
+    grid.size = {20, 19, 18};
+    scene.points = {{100, 0}, {150, 1}};
+    scene.domain = {0, 255};
+    scene.volume = makeVolume<float>(grid, ScalarType::Float32, [&](auto... place) {
+        const double value = uniform(random, 0, 1) < 0.6 ? 10 : 200;
+        return ((place % 8 == 0) && ...) ? outlier : value;
+    });
+    for (int i = 0; i < 10; ++i) {
+        std::array<Vec3, 3> corners{};
+        Vec3 block{};
+        std::ranges::generate(block, [&] { return static_cast<double>(8 * (random() % 2)); });
+        for (Vec3& corner : corners) {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                corner[axis] = near ? uniform(random, -1, 19) : block[axis] + uniform(random, 3, 5);
+            }
+        }
+        addTriangle(scene.mesh, corners[0], corners[1], corners[2]);
+    }
+    return withTable(std::move(scene));
+}
+
 } // namespace voxtact::test

@@ -34,6 +34,10 @@ struct CertifiedCase {
 /// The same case for the same numbers.
 [[nodiscard]] CertifiedCase makeCertifiedCase(std::uint64_t seed, std::uint64_t number);
 
+/// Float voxels, one of each 8^3 of which is the outlier, and ten triangles that stay two voxels from all of these, or,
+/// where they may be `near`, do not. The same case for the same numbers, but for the outlier.
+[[nodiscard]] CertifiedCase outlierCase(std::uint64_t seed, double outlier, bool near);
+
 /// At a place in texture space, in a few lines of double precision that share nothing with the certified oracle. Minus
 /// one outside the domain.
 [[nodiscard]] double opacityOf(const CertifiedCase& c, const Vec3& texture);

@@ -196,6 +196,31 @@ TEST_F(ConservativeTest, TheWitnessOfASpikeIsTheHosts) {
     }
 }
 
+/// About a voxel that is far from all others the device is as sure as the host.
+TEST_F(ConservativeTest, OutliersAreTheHosts) {
+    const std::uint64_t seed = testSeed();
+    BlockingDetector device = detector(kDevice);
+    cpu::Detector host = hostDetector();
+    std::size_t hits = 0;
+    for (std::uint64_t number = 0; number < randomCases(60, 8); ++number) {
+        for (const double outlier : {1e5, -1e20, -3.4e38}) {
+            for (const bool near : {false, true}) {
+                const CertifiedCase c = outlierCase(seed + number, outlier, near);
+                const oracle::OraclePair pair = c.scene.pair();
+                const Sides sides(context(), queue(), pair.volume, pair.transferFunction, pair.mesh, true);
+                const std::span poses(&pair.world_from_object, 1);
+                const BatchItem item = sides.item(poses);
+                const cpu::BatchItem hostItem = sides.hostItem(poses);
+                const PairAnswer onHost = take(host.detect({{&hostItem, 1}, {}, pair.threshold})).pairs[0];
+                expectSame(take(device.detect({{&item, 1}, {}, pair.threshold})).pairs[0], onHost,
+                           "VOXTACT_TEST_SEED=" + std::to_string(seed) + ", case " + std::to_string(number));
+                hits += onHost.hit && !near ? 1U : 0U;
+            }
+        }
+    }
+    EXPECT_GT(hits, 5U);
+}
+
 /// All four touch; a device that takes denormals for zero may not know.
 TEST_F(ConservativeTest, WhatDependsOnDenormalsIsPossible) {
     BlockingDetector device = detector(kDevice);
