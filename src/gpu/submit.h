@@ -79,7 +79,8 @@ template <class Object>
 /// What cmdUpload() says when there is nothing to upload from.
 [[nodiscard]] inline Error notUploadable(const char* what) {
     return {ErrorCode::NotReady, 0,
-            std::string("the ") + what + " has no staging buffer: it is wrapped, or upload() or releaseStaging() has freed it"};
+            std::string("the ") + what +
+                " has no staging buffer: it is wrapped, or upload() or releaseStaging() has freed it"};
 }
 
 } // namespace voxtact
