@@ -49,9 +49,10 @@ CertifiedCorners cornersAround(CertifiedCorners corners, ivec3 cell) {
 
 #include "exact_language.h"
 
-/// The attempts at a cell: as the first pass; precisely; the part of it that is certainly in the domain.
+/// The attempts at a cell: as the first pass; precisely; with the range of its own voxels; the part of it that is
+/// certainly in the domain.
 void decideCell(Placed triangle, ivec3 cell, vec4 range) {
-    const CertifiedCorners corners = cornersOf(cell, range);
+    CertifiedCorners corners = cornersOf(cell, range);
     CertifiedCell known = certifiedCell(constants.item, corners, cell.x, cell.y, cell.z, triangle.rounded.delta);
     if (!certifiedCellMayBeOpaque(opacities(), known)) {
         return;
@@ -59,27 +60,29 @@ void decideCell(Placed triangle, ivec3 cell, vec4 range) {
     int verdict = CERTIFIED_UNDECIDED;
     int attempt = triangle.usable && !triangle.again ? -1 : 0;
     CertifiedWitness witness;
-    while (verdict == CERTIFIED_UNDECIDED && attempt < 2) {
+    while (verdict == CERTIFIED_UNDECIDED && attempt < 3) {
         ++attempt;
         VoxelPoint polygon[CERTIFIED_MAX_CORNERS];
         int count;
         if (attempt == 0) {
             count = certifiedBegin(opacities(), triangle.rounded, known, cell.x, cell.y, cell.z, polygon);
         } else {
-            if (attempt == 1) {
-                known = preciseCell(constants.item, triangle.precisely, cornersAround(corners, cell), cell.x, cell.y,
-                                    cell.z);
+            if (attempt < 3) {
+                if (attempt == 2) {
+                    corners = cornersAround(corners, cell);
+                }
+                known = preciseCell(constants.item, triangle.precisely, corners, cell.x, cell.y, cell.z);
             } else if (preciseCrosses(known)) {
                 known = preciseWithin(known);
             } else {
                 break;
             }
-            count = certifiedBeginAgain(triangle.precisely, known, cell.x, cell.y, cell.z, attempt == 2, polygon);
+            count = certifiedBeginAgain(triangle.precisely, known, cell.x, cell.y, cell.z, attempt == 3, polygon);
         }
         const float resolution = attempt == 0 ? constants.item.resolution : certifiedFinest(constants.item);
         verdict = certifiedSettle(opacities(), resolution, known, polygon, count, witness);
         // What is certainly in the domain has no opaque point, but there is more.
-        verdict = attempt == 2 && verdict == CERTIFIED_NONE ? CERTIFIED_UNDECIDED : verdict;
+        verdict = attempt == 3 && verdict == CERTIFIED_NONE ? CERTIFIED_UNDECIDED : verdict;
     }
     if (verdict == CERTIFIED_UNDECIDED) {
         undecided = true;

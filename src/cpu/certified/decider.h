@@ -312,15 +312,25 @@ template <class Kept, class Mode> class Decider {
         });
     }
 
+    /// Precisely; with the range of the cell's own voxels; and the part of it that is certainly in the domain.
     void decideAgain(std::int32_t x, std::int32_t y, std::int32_t z, const BrickCells& known) {
-        const shader::CertifiedCorners corners = cells_.cornersAround(x, y, z, known);
+        shader::CertifiedCorners corners = cells_.corners(x, y, z, known);
         shader::CertifiedCell cell = shader::preciseCell(item_, precise_, corners, x, y, z);
         shader::CertifiedWitness witness{};
-        int verdict = settleAgain(cell, x, y, z, false, witness);
-        if (verdict == CERTIFIED_UNDECIDED && shader::preciseCrosses(cell)) {
-            cell = shader::preciseWithin(cell);
-            const bool certain = settleAgain(cell, x, y, z, true, witness) == CERTIFIED_CERTAIN;
-            verdict = certain ? CERTIFIED_CERTAIN : CERTIFIED_UNDECIDED;
+        int verdict = CERTIFIED_UNDECIDED;
+        for (int attempt = 1; verdict == CERTIFIED_UNDECIDED && attempt <= 3; ++attempt) {
+            const bool within = attempt == 3;
+            if (attempt == 2) {
+                corners = cells_.cornersAround(x, y, z, known);
+                cell = shader::preciseCell(item_, precise_, corners, x, y, z);
+            } else if (within && !shader::preciseCrosses(cell)) {
+                break;
+            } else if (within) {
+                cell = shader::preciseWithin(cell);
+            }
+            verdict = settleAgain(cell, x, y, z, within, witness);
+            // What is certainly in the domain has no opaque point, but there is more.
+            verdict = within && verdict == CERTIFIED_NONE ? CERTIFIED_UNDECIDED : verdict;
         }
         if (verdict == CERTIFIED_CERTAIN) {
             addCertain(corners, witness, x, y, z);
