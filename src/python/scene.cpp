@@ -6,6 +6,8 @@
 #include "voxtact/cpu.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 
 namespace voxtact::python {
@@ -41,7 +43,9 @@ Question yesOrNoByDevice() {
 
 void checkThreshold(double threshold) {
     if (!(threshold >= 0 && threshold <= 1)) {
-        refuseArgument("threshold is " + std::to_string(threshold) + "; it must be from 0 to 1");
+        std::array<char, 32> text{}; // without the locale that std::to_string() has
+        const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), threshold);
+        refuseArgument("threshold is " + std::string(text.data(), end) + "; it must be from 0 to 1");
     }
 }
 

@@ -139,6 +139,17 @@ TEST_F(ClearanceTest, WritesTheClosestPoints) {
     EXPECT_EQ(ply.size(), end + 1 + 6 + 3);
 }
 
+/// A name with a line break does not end a line of the header.
+TEST_F(ClearanceTest, APlyFileHasEachNameInALine) {
+    const std::string mesh = path("two\nelement lines.stl");
+    output({"make", "mesh", "builtin:scalpel:300", mesh});
+    output({"detect", "--volume", "builtin:head:32", "--mesh", mesh, "--poses", path("poses.txt"), "--clearance",
+            "--closest", path("named.ply")});
+    const std::vector<std::string> ply = linesOf(readText(path("named.ply")));
+    EXPECT_EQ(std::ranges::count_if(ply, [](const std::string& line) { return line.starts_with("element"); }), 2);
+    EXPECT_THAT(ply, testing::Contains(testing::EndsWith("two element lines.stl")));
+}
+
 TEST_F(ClearanceTest, WritesTheClearanceToLabels) {
     output({"make", "volume", "builtin:head:32", path("labels.nii.gz")});
     const std::string whole = rows({"--clearance"})[1].at("clearance_lo");

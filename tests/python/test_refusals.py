@@ -253,3 +253,9 @@ def test_bad_json_is_not_told_whole(tmp_path):
         with pytest.raises(vx.FormatError, match="parse error at line 1, column 1") as caught:
             read(tmp_path / name)
         assert len(say(caught).replace(str(tmp_path), "")) < 400
+
+
+def test_a_threshold_is_written_without_the_locale():
+    scene = vx.Scene(vx.read_volume("builtin:head:16"))
+    with pytest.raises(vx.InvalidArgumentError, match=r"threshold is -0\.5;"):
+        scene.threshold = -0.5

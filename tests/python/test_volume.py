@@ -167,6 +167,17 @@ def test_nibabel(nifti, tmp_path):
     np.testing.assert_array_equal(answers(rounded), answers(expected))
 
 
+def test_an_image_says_itself_where_it_is(nifti):
+    nibabel = pytest.importorskip("nibabel")
+    image = nibabel.load(nifti)
+    for option in ({"affine": np.eye(4)}, {"space": "lps"}, {"axes": "zyx"}, {"series": "1.2"}, {"frame": 5}):
+        with pytest.raises(vx.InvalidArgumentError):
+            vx.read_volume(image, **option)
+        with pytest.raises(vx.InvalidArgumentError, match="a Volume is taken as it is"):
+            vx.read_volume(vx.read_volume(nifti), **option)
+    same_place(vx.read_volume(image, frame=0), vx.read_volume(nifti))
+
+
 def test_nibabel_scaling_units_and_frames(tmp_path):
     nibabel = pytest.importorskip("nibabel")
     path = tmp_path / "scaled.nii"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/detect/detect_files.h"
 
+#include "app/output/standard_streams.h"
 #include "core/base/outward.h"
 #include "core/base/text.h"
 #include "io/text/table.h"
@@ -34,10 +35,10 @@ void writePly(std::ostream& out, const DetectOptions& options, const DetectInput
            "comment closest points by voxtact; world, mm, LPS (+x left, +y posterior, +z superior)\n"
            "comment vertices: on the mesh, in the volume, by turns; clearance: its upper bound\n";
     for (std::size_t i = 0; i < jobs.meshes.size(); ++i) {
-        out << "comment mesh " << i << " is " << io::csvField(jobs.meshes[i]) << '\n';
+        out << "comment mesh " << i << " is " << io::csvField(oneLine(jobs.meshes[i])) << '\n';
     }
     for (std::size_t i = 0; i < jobs.volumes.size(); ++i) {
-        out << "comment volume " << i << " is " << io::csvField(jobs.volumes[i]) << '\n';
+        out << "comment volume " << i << " is " << io::csvField(oneLine(jobs.volumes[i])) << '\n';
     }
     out << "element vertex " << 2 * kept.size()
         << "\nproperty double x\nproperty double y\nproperty double z\nproperty int in_volume\n"

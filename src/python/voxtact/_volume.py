@@ -227,6 +227,8 @@ def _of_nibabel(image: Any, frame: Optional[int]) -> Volume:
         if frame >= array.shape[3]:
             raise InvalidArgumentError(f"frame={frame}: the image holds {array.shape[3]} volumes, counted from 0")
         array = array[..., frame]
+    elif frame:
+        raise InvalidArgumentError(f"frame={frame}: the image holds one volume, counted from 0")
     notes: list[str] = []
     affine = np.array(image.affine, dtype=np.float64)
     units = getattr(image.header, "get_xyzt_units", lambda: ("mm",))()[0]
@@ -301,12 +303,15 @@ def read_volume(source: Any, *, affine: Optional[npt.ArrayLike] = None, space: O
 
     Raises FileError, FormatError, and InvalidArgumentError, for NaN and infinite voxels too.
     """
+    placed = affine is not None or space is not None or axes is not None
     if isinstance(source, Volume):
+        if placed or frame is not None or series:
+            raise InvalidArgumentError("a Volume is taken as it is: affine=, space=, axes=, frame= and series= are for others")
         return source
     if frame is not None:
         frame = whole_number(frame, "frame")
     if isinstance(source, (str, bytes, os.PathLike)):
-        if affine is not None or space is not None or axes is not None:
+        if placed:
             raise InvalidArgumentError("affine=, space= and axes= are for arrays: a file says where its voxels are")
         if isinstance(source, str) and source.startswith(BUILTIN):
             if frame is not None or series:
@@ -314,12 +319,20 @@ def read_volume(source: Any, *, affine: Optional[npt.ArrayLike] = None, space: O
             return Volume._of(core.Volume.builtin(encoded_text(source[len(BUILTIN):], "the name of the builtin")))
         return Volume._of(core.Volume.read(encoded(source), frame, encoded_text(series, "series")))
     if hasattr(source, "affine") and hasattr(source, "dataobj"):
+        if placed or series:
+            raise InvalidArgumentError("affine=, space= and axes= are for arrays, series= for files: an image of nibabel says "
+                                       "where its voxels are")
         return _of_nibabel(source, frame)
     if frame is not None or series:
         raise InvalidArgumentError("frame= and series= are for files and nibabel's images")
-    if hasattr(source, "GetSpacing") and hasattr(source, "GetPointData"):
+    is_image = hasattr(source, "GetSpacing")
+    if is_image and (affine is not None or axes is not None):
+        raise InvalidArgumentError("affine= and axes= are for arrays: an image says where its voxels are")
+    if is_image and hasattr(source, "GetPointData"):
         return _of_vtk_image(source, space or "lps")
-    if hasattr(source, "GetSpacing") and hasattr(source, "GetDirection"):
+    if is_image and hasattr(source, "GetDirection"):
+        if space is not None:
+            raise InvalidArgumentError("space= is for arrays and vtkImageData: an ITK image is in LPS")
         return _of_itk(source)
     if not (hasattr(source, "__array__") or hasattr(source, "__array_interface__") or hasattr(source, "__buffer__")
             or isinstance(source, (list, memoryview))):
