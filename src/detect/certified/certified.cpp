@@ -159,8 +159,9 @@ shader::CertifiedConstants CertifiedPass::constantsOf(const Batch& batch, const 
 }
 
 RoundCut CertifiedPass::cutOf(const BatchItem& item, std::uint32_t queueRoom) const noexcept {
-    return {meshLooks(item, desc_.margin),
-            {.clusters = clustersOfRound(queueRoom, desc_.stopAtFirst && !(desc_.margin > 0)),
+    const MeshLooks looks = meshLooks(item, desc_.margin);
+    return {looks,
+            {.clusters = clustersOf(looks, queueRoom, desc_.stopAtFirst && !(desc_.margin > 0)),
              .pairs = context_->limits.maxComputeWorkGroupCount[1],
              .looks = looksOfRound(queueRoom)}};
 }

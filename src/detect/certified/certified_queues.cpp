@@ -94,7 +94,7 @@ RoomLimits roomLimits(const VkPhysicalDeviceLimits& device, VkDeviceSize maxAllo
     const std::uint32_t times =
         std::clamp(device.maxComputeWorkGroupCount[0] / kLeastWorkGroups, 1U, kMostQueueRoom / kMostRoomAnywhere);
     return {std::min<VkDeviceSize>(device.maxStorageBufferRange, maxAllocation), largest / kShareOfMemory,
-            kMostRoomAnywhere * times};
+            kMostRoomAnywhere * std::bit_floor(times)};
 }
 
 std::uint32_t queueRoomFor(const ResultsDesc& desc, const RoomLimits& limits, VkDeviceSize first) noexcept {

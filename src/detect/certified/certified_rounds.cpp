@@ -2,6 +2,7 @@
 #include "detect/certified/certified_rounds.h"
 #include "core/method/certified_constants.h"
 #include "detect/batch.h"
+#include "detect/certified/certified_queues.h"
 #include "gpu/scene_impl.h"
 
 #include <array>
@@ -53,6 +54,10 @@ double squaredScale(const Grid& grid, const Mat4& texture_from_world, const Mat4
 }
 
 } // namespace
+
+std::uint32_t clustersOf(const MeshLooks& looks, std::uint32_t queueRoom, bool stopAtFirst) noexcept {
+    return clustersOfRound(looks.before.empty() ? std::min(queueRoom, kMostRoomAnywhere) : queueRoom, stopAtFirst);
+}
 
 MeshLooks meshLooks(const BatchItem& item, double margin) noexcept {
     const MeshImpl& mesh = item.mesh->impl();

@@ -45,6 +45,10 @@ struct MeshLooks {
     }
 };
 
+/// Clusters of a round: of a mesh whose looks are not known no more than every device has room for, since only they
+/// bound what its triangles ask for.
+[[nodiscard]] std::uint32_t clustersOf(const MeshLooks& looks, std::uint32_t queueRoom, bool stopAtFirst) noexcept;
+
 /// Of an item whose mesh is on the device; with a margin, world mm, all triangles are looked at as large ones are.
 [[nodiscard]] MeshLooks meshLooks(const BatchItem& item, double margin = 0) noexcept;
 

@@ -35,8 +35,9 @@ Result<MarginPasses> MarginPasses::create(ContextImpl& context, const Programs& 
 }
 
 RoundCut MarginPasses::cutOf(const BatchItem& item, std::uint32_t queueRoom, double reach) const noexcept {
-    return {meshLooks(item, reach),
-            {.clusters = clustersOfRound(queueRoom, false),
+    const MeshLooks looks = meshLooks(item, reach);
+    return {looks,
+            {.clusters = clustersOf(looks, queueRoom, false),
              .pairs = context_->limits.maxComputeWorkGroupCount[1],
              .looks = looksOfRound(queueRoom)}};
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The queues between the passes of the projection `conservative`: answers do not depend on their room.
 #include "detect/certified/certified_queues.h"
+#include "detect/certified/certified_rounds.h"
 #include "raw_fixture.h"
 #include "shared.h"
 
@@ -295,6 +296,17 @@ TEST(RoomTest, IsWhatWasAskedForOrWhatTheDeviceAllows) {
     EXPECT_EQ(room({}, 1, {1000, kMuch, kMostQueueRoom}), 0U);
 }
 
+/// Only their number bounds what the clusters of a mesh ask for whose vertices the host does not know.
+TEST(RoomTest, ClustersOfAnUnknownMeshHaveTheOldBound) {
+    const std::array<double, 2> before{0, 1};
+    const MeshLooks known{.pairs = 1, .clusters = 1, .before = before};
+    for (const bool stopAtFirst : {false, true}) {
+        EXPECT_EQ(clustersOf(known, kMostQueueRoom, stopAtFirst), clustersOfRound(kMostQueueRoom, stopAtFirst));
+        EXPECT_EQ(clustersOf({}, kMostQueueRoom, stopAtFirst), clustersOfRound(kMostRoomAnywhere, stopAtFirst));
+        EXPECT_EQ(clustersOf({}, 2048, stopAtFirst), clustersOfRound(2048, stopAtFirst));
+    }
+}
+
 TEST(RoomTest, FollowsTheWorkGroupsAndTheMemoryOfADevice) {
     VkPhysicalDeviceLimits device{};
     device.maxStorageBufferRange = UINT32_MAX;
@@ -305,6 +317,8 @@ TEST(RoomTest, FollowsTheWorkGroupsAndTheMemoryOfADevice) {
     for (const auto& [groups, room] : {std::pair{65535U, 16384U},
                                        {131069U, 16384U},
                                        {131070U, 32768U},
+                                       {196605U, 32768U},
+                                       {655350U, 131072U},
                                        {0x7fffffffU, kMostQueueRoom},
                                        {UINT32_MAX, kMostQueueRoom}}) {
         device.maxComputeWorkGroupCount[0] = groups;
