@@ -152,9 +152,8 @@ struct ResultsDesc {
     /// as many as a GPU can do before its driver takes it for stuck; each takes 720 bytes of device memory. 0: none,
     /// for Results for other projections. Nothing: by maxPairs, 2048 to 16384, or more where the device's
     /// maxComputeWorkGroupCount allows for it, the queues take no more than a 128th of its memory, and there is no room
-    /// for clearances or motions. In any case fewer
-    /// where its maxComputeWorkGroupCount (16384 for each 65535 along x) or maxStorageBufferRange has no room for so
-    /// many.
+    /// for clearances or motions. In any case fewer where its maxComputeWorkGroupCount (16384 for each 65535 along x)
+    /// or maxStorageBufferRange has no room for so many.
     std::optional<std::uint32_t> clustersAtOnce = std::nullopt;
     /// For detectors with DetectorDesc::clearance: 68 bytes of device memory a pair, 16 of the host's where there is a
     /// copy, and 648 bytes more for each of clustersAtOnce. They take the queues of the projection conservative.
@@ -192,7 +191,8 @@ struct ResultsDesc {
 }
 
 /// Where the answers of one batch in flight go: a device buffer of PairResult, and what counting needs beside it.
-/// One batch at a time. A second cmdDetect() in the same queue waits for the first one and replaces its answers; in
+/// One batch at a time. A second cmdDetect() in the same queue waits for the first one and replaces its answers (with
+/// ResultsDesc::staged it is recorded only when the first one has completed: what it stages replaces, too); in
 /// another queue it must not run before the first one has completed, which a semaphore or a fence of yours ensures.
 /// Thread-safety: none; one thread at a time.
 class Results {
@@ -347,8 +347,9 @@ class Detector {
 
     /// Records the detection of a batch: no allocation of device memory, no submission, no wait, no map. The poses
     /// are recorded into the command buffer, so it may be submitted again without its Results being overwritten by
-    /// the host in between. Those of a PoseBuffer are read when it executes: recorded once, it may be submitted again
-    /// and again, each time for the poses that are there then.
+    /// the host in between; with ResultsDesc::staged they are in the Results, and it may not. Those of a PoseBuffer are
+    /// read when it executes: recorded once, it may be submitted again and again, each time for the poses that are
+    /// there then.
     ///
     ///   call it          outside a render pass, in a primary command buffer, on a queue with graphics, or, for
     ///                    the method compute, on one with compute, with or without graphics
