@@ -191,9 +191,9 @@ struct ResultsDesc {
 }
 
 /// Where the answers of one batch in flight go: a device buffer of PairResult, and what counting needs beside it.
-/// One batch at a time. A second cmdDetect() in the same queue waits for the first one and replaces its answers (with
-/// ResultsDesc::staged it is recorded only when the first one has completed: what it stages replaces, too); in
+/// One batch at a time. A second cmdDetect() in the same queue waits for the first one and replaces its answers; in
 /// another queue it must not run before the first one has completed, which a semaphore or a fence of yours ensures.
+/// With ResultsDesc::staged it must not even be recorded before: its poses replace the first one's.
 /// Thread-safety: none; one thread at a time.
 class Results {
   public:
@@ -389,8 +389,9 @@ class Detector {
 };
 
 /// The blocking convenience: records a batch, submits it on the caller's queue, waits, and reads the answers. Keeps
-/// its command buffer, fence and Results for the next call and makes larger ones when a batch needs them.
-/// Thread-safety: none; one thread at a time.
+/// its command buffer, fence and Results for the next call and makes larger ones when a batch needs them. On a GPU that
+/// has doubles, a method that computes makes the pairs of 256 poses of the host or more on the device, as with
+/// DetectorDesc::devicePoses. Thread-safety: none; one thread at a time.
 class BlockingDetector {
   public:
     /// The queue's family must be able to draw, or, for the method compute, to compute. A list of contacts is cut

@@ -19,8 +19,8 @@ namespace voxtact {
 /// triangle that certainly has an opaque point in a voxel cell, counted once for each of its cells; a pair whose count
 /// is zero may still touch when VOXTACT_HOW_UNDECIDED(how) is not zero.
 struct PairResult {
-    VOXTACT_UINT countLow;  ///< survivors, low 32 bits; 0 or 1 of a detector with DetectorDesc::stopAtFirst, while of
-                            ///< `query-any` a number that is not zero means nothing
+    VOXTACT_UINT countLow;  ///< survivors, low 32 bits. With DetectorDesc::stopAtFirst 0 or 1; by `query-any` only
+                            ///< whether it is zero means something
     VOXTACT_UINT countHigh; ///< survivors, high 32 bits
     VOXTACT_UINT pair;      ///< number of the pair in its batch
     VOXTACT_UINT item;      ///< number of the BatchItem that the pair came from

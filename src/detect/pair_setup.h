@@ -18,8 +18,8 @@ class PairSetup {
     [[nodiscard]] static Result<PairSetup> create(ContextImpl& context, const DetectorDesc& desc);
 
     /// Writes the poses that the host has of a checked batch to where record() reads them, in Results that stage them.
-    /// False where the host is to make the pairs of them: there are few, the device has no doubles, or it may lose some
-    /// of what is made of them.
+    /// False where the host is to make the pairs of them: there are few, or more than a shader can see of the staging
+    /// memory, the device has no doubles, or it may lose some of what is made of them.
     [[nodiscard]] bool stagePoses(const Batch& batch, const ResultsImpl& results) const noexcept;
 
     /// Records what the first items of the batch are; for the transfer stage, before a barrier to the compute stage,

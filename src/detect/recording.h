@@ -15,8 +15,8 @@ inline constexpr std::uint32_t kMostTransformsPerPair = 2;
 
 /// What every pass needs before it: the transforms of a checked batch, and results of zero that say which pair they
 /// are. Waits for whatever still uses an earlier batch of the same Results. Leaves them ready for shaders, and the
-/// queries reset where the method counts by query. `setup` is there where the batch has poses on the device; `rounds`
-/// are those of the projection conservative, whose first VOXTACT_HEADERS it makes ready.
+/// queries reset where the method counts by query. `setup` is the detector's, for poses on the device and for staged
+/// ones; `rounds` are those of the projection conservative, whose first VOXTACT_HEADERS it makes ready.
 [[nodiscard]] Result<void> prepareResults(const ContextImpl& context, VkCommandBuffer commandBuffer, const Batch& batch,
                                           const ResultsImpl& results, const DetectorDesc& desc,
                                           const std::optional<PairSetup>& setup = std::nullopt,
