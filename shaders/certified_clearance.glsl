@@ -67,10 +67,15 @@ bool clearanceIsDone(uint pair) {
            clearanceSpace(pair).margin <= clearanceLo(pair);
 }
 
-/// Something is left undecided, and may be as near.
+/// In place of no distance at all of what was looked at: the least number that arithmetic keeps.
+const float kNoDistance = 1.17549435e-38;
+
+/// Something is left undecided, and may be as near. 0: nothing is known of it.
 void leaveOpen(uint pair, float distance) {
-    const uint least = distance > 0.0 ? floatBitsToUint(distance) : VOXTACT_CLEARANCE_UNKNOWN;
-    atomicMin(queues[clearanceWord(pair) + VOXTACT_CLEARANCE_OPEN], max(least, VOXTACT_CLEARANCE_UNKNOWN));
+    const uint least = distance > kNoDistance ? floatBitsToUint(distance)
+                       : distance > 0.0       ? VOXTACT_CLEARANCE_AT_ONCE
+                                              : VOXTACT_CLEARANCE_UNKNOWN;
+    atomicMin(queues[clearanceWord(pair) + VOXTACT_CLEARANCE_OPEN], least);
 }
 
 /// Something is not looked at, as it is too much.

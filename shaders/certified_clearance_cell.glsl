@@ -49,6 +49,8 @@ const int kMostBoxes = 512; // of a part of it, of which there may be eight
 #else
 const int kMostBoxes = 2048;
 #endif
+/// Of a hopeless cell.
+const int kFewBoxes = 64;
 /// Halvings that suffice to see of most cells that they are too far.
 const int kFewSteps = 5;
 
@@ -61,6 +63,13 @@ float partBelow(MarginSpace by, CertifiedCell cell, MarginTriangle about) {
     const MarginValues values = marginCellValues(opacities(), cell, kFewSteps);
     return clearanceBelow(marginPartGap(by, cell, values, near, marginLinear(cell, box), radius),
                           voxelDot(near.along, near.along), about.slack);
+}
+
+/// Whether values of a cell are known so badly that each may be any of the table's: no point of it proves anything, and
+/// most of its boxes are as open as the whole.
+bool isHopeless(CertifiedCell cell) {
+    return !(cell.pointError < float(constants.item.tableSize)) &&
+           !certainlyAllOpaque(opacities(), cell.least - cell.pointError, cell.greatest + cell.pointError);
 }
 
 /// Values at points of a cell, none farther from the triangle than `farthest`.
@@ -137,6 +146,7 @@ void measureBoxes(uint pair, MarginSpace by, CertifiedTriangle triangle, Certifi
         return;
     }
     const MarginValues known = marginCellValues(opacities(), cell, MARGIN_VALUE_STEPS);
+    const int most = isHopeless(cell) ? kFewBoxes : kMostBoxes;
     ClearanceSamples samples = noSamples();
     MarginBox stack[MARGIN_STACK];
     float below[MARGIN_STACK];
@@ -152,8 +162,8 @@ void measureBoxes(uint pair, MarginSpace by, CertifiedTriangle triangle, Certifi
         if (least >= clearanceLimit(by, asked, found.hi)) {
             continue;
         }
-        if (boxes == kMostBoxes) {
-            found.open = min(found.open, least);
+        if (boxes == most) {
+            found.open = min(found.open, max(least, kNoDistance));
             continue;
         }
         ++boxes;
@@ -186,7 +196,7 @@ void measureBoxes(uint pair, MarginSpace by, CertifiedTriangle triangle, Certifi
         }
         const int axis = marginLongest(by, box);
         if (axis < 0 || waiting + 2 > MARGIN_STACK) {
-            found.open = min(found.open, least);
+            found.open = min(found.open, max(least, kNoDistance));
             continue;
         }
         const float at = (voxelAlong(box.lo, axis) + voxelAlong(box.hi, axis)) * 0.5;

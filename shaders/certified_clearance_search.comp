@@ -21,6 +21,8 @@ layout(push_constant) uniform Search { ClearanceConstants constants; };
 /// Of a distance in mm: more than rounding does to it.
 const float kInward = 0.99999905;
 const float kOutward = 1.00000095;
+/// Flat: so far beyond what was left undecided something certain is looked for.
+const float kFarBeyond = 16.0;
 
 struct State {
     float lo;
@@ -88,7 +90,7 @@ void search(uint at, bool mayTouch) {
     const bool boxesOnly = constants.step == 1;
     const float farther = found.asked - found.lo; // than what was known before
     const bool refused = found.open == VOXTACT_CLEARANCE_REFUSED;
-    const float open = found.open <= VOXTACT_CLEARANCE_ASTRAY ? 0.0 : uintBitsToFloat(found.open);
+    const float open = found.open <= VOXTACT_CLEARANCE_AT_ONCE ? 0.0 : uintBitsToFloat(found.open);
     const bool some = found.hi < VOXTACT_CLEARANCE_FAR;
     const float useful =
         min(some ? found.hi - max(constants.tolerance, found.hi * constants.rounding) : constants.most, constants.most);
@@ -96,8 +98,11 @@ void search(uint at, bool mayTouch) {
     found.lo = max(found.lo, min(min(found.asked, useful), open));
     // What was left undecided may be decided where more is known: once more, as long as that helps.
     const bool again = some && found.asked > found.hi && open < useful;
-    if (found.lo >= useful || constants.step == constants.steps || (complete && !again && !boxesOnly)) {
-        end(at, found, mayTouch, complete);
+    // Nothing is certain anywhere near what rounding left undecided: to look on would better the upper bound alone.
+    const bool lost = !some && !refused && !boxesOnly && found.open >= VOXTACT_CLEARANCE_AT_ONCE &&
+                      found.asked >= 2.0 * open + kFarBeyond;
+    if (found.lo >= useful || constants.step == constants.steps || lost || (complete && !again && !boxesOnly)) {
+        end(at, found, mayTouch, complete || lost);
         return;
     }
     float asked = constants.most;

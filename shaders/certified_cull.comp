@@ -239,6 +239,10 @@ void main() {
         kept = 0;
         proven = 0;
     }
+#ifndef RUNS
+    const uvec2 all = gl_NumWorkGroups.xy * gl_WorkGroupSize.xy;
+    emptyLeftBlocks(gl_GlobalInvocationID.x + all.x * gl_GlobalInvocationID.y, all.x * all.y);
+#endif
     barrier();
     const Node node = nodeOfLane();
     bool keep = node.some;

@@ -25,6 +25,7 @@ shared uint pairOfGroup; // of the first lane, and so of most
 shared uint parts;       // of large triangles
 shared uint firstPart;
 shared uint groupsIfLeft; // of certified_finish, for all large triangles
+shared uint refused;      // not 0: of the pairs, not all is looked at
 
 /// Work groups of certified_large that share a triangle: one for every 32 bricks that it passes through, up to a point,
 /// and none that has no block of bricks. It passes through some for each side of one that its shadows cover, and for
@@ -102,6 +103,7 @@ void main() {
         parts = 0;
         firstPart = 0;
         groupsIfLeft = 0;
+        refused = 0;
     }
     barrier();
     const TriangleLane own = triangleLane(gl_WorkGroupID.x, lane);
@@ -133,13 +135,13 @@ void main() {
     if (lane == 0 && parts > 0) {
         const uint room = VOXTACT_ROOM_LARGE(constants.queueRoom);
         firstPart = reserve(VOXTACT_QUEUE_LARGE, parts, room, 1);
-        if (firstPart + parts > room) {
-            leave(VOXTACT_LEFT_GROUP, gl_WorkGroupID.x, 0, groupsIfLeft);
+        if (firstPart + parts > room && !leave(VOXTACT_LEFT_GROUP, gl_WorkGroupID.x, 0, groupsIfLeft)) {
+            refused = 1;
         }
     }
     const bool fits = reserveList();
-    if (!fits && lane == 0) {
-        leave(VOXTACT_LEFT_SMALL, gl_WorkGroupID.x, 0, kSharesOfSmall);
+    if (!fits && lane == 0 && !leave(VOXTACT_LEFT_SMALL, gl_WorkGroupID.x, 0, kSharesOfSmall)) {
+        refused = 1;
     }
     if (fits && certain > 0) { // else certified_finish counts them
         if (own.pair == pairOfGroup) {
@@ -157,6 +159,9 @@ void main() {
         putCell(i, of.pair, of.triangle, of.lo + ivec3(number % of.size.x, row % of.size.y, row / of.size.y));
     }
     barrier();
+    if (refused != 0 && own.some) {
+        atomicOr(results[own.pair].how, VOXTACT_HOW_UNDECIDED_BIT);
+    }
     if (lane == 0 && certainOfGroup > 0) {
         countWork(VOXTACT_WORK_CERTAIN, certainOfGroup);
         addSurvivors(pairOfGroup, certainOfGroup);

@@ -31,24 +31,6 @@ bool undecided = false;
 
 #include "exact_language.h"
 
-/// Corners with the range of the voxels around this cell alone: one voxel of a brick may be far from all others.
-CertifiedCorners cornersAround(CertifiedCorners corners, ivec3 cell) {
-    CertifiedCorners around = corners;
-    around.wideLo = corners.wideHi;
-    around.wideHi = corners.wideLo;
-    ROLLED for (int i = 0; i < 64; ++i) {
-        const float stored = storedAt(cell - 1 + ivec3(i & 3, (i >> 2) & 3, i >> 4));
-        around.wideLo = certifiedMin(around.wideLo, stored);
-        around.wideHi = certifiedMax(around.wideHi, stored);
-    }
-    if (!(around.wideLo <= around.wideHi)) {
-        return corners; // none of them is a number
-    }
-    return around;
-}
-
-#include "exact_language.h"
-
 /// The attempts at a cell: as the first pass; precisely; with the range of its own voxels; the part of it that is
 /// certainly in the domain.
 void decideCell(Placed triangle, ivec3 cell, vec4 range) {
@@ -176,27 +158,23 @@ Share shareOfCell(uint number) {
 
 void main() {
     const bool ofCells = gl_NumWorkGroups.y != VOXTACT_LEFT_ROWS;
-    const uint layer = gl_NumWorkGroups.x * gl_NumWorkGroups.y;
-    const uint groups = ofCells ? gl_WorkGroupID.x + 1 : queues[constants.headerWord + VOXTACT_GROUPS_LEFT];
-    // One turn, unless the device has not as many work groups.
-    for (uint group = gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y + layer * gl_WorkGroupID.z;
-         group < groups; group += layer * gl_NumWorkGroups.z) {
-        Share share;
-        if (ofCells) {
-            share = shareOfCell(gl_GlobalInvocationID.x);
-        } else {
-            share = shareOfGroup(group);
+    Share share;
+    if (ofCells) {
+        share = shareOfCell(gl_GlobalInvocationID.x);
+    } else {
+        const uint group = groupLeft();
+        if (group >= queues[constants.headerWord + VOXTACT_GROUPS_LEFT]) {
+            return;
         }
-        survivors = 0;
-        undecided = false;
-        if (share.some && !isDone(share.pair)) {
-            decideShare(share);
-            if (survivors > 0) {
-                addSurvivors(share.pair, survivors);
-            }
-            if (undecided || isCut()) {
-                atomicOr(results[share.pair].how, VOXTACT_HOW_UNDECIDED_BIT);
-            }
+        share = shareOfGroup(group);
+    }
+    if (share.some && !isDone(share.pair)) {
+        decideShare(share);
+        if (survivors > 0) {
+            addSurvivors(share.pair, survivors);
+        }
+        if (undecided || isCut()) {
+            atomicOr(results[share.pair].how, VOXTACT_HOW_UNDECIDED_BIT);
         }
     }
 }

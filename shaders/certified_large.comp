@@ -62,6 +62,13 @@ uint groupsFrom(uvec4 entry, uint brick, uint count) {
     return groupsOfBricks(min(blocks * VOXTACT_COMPUTE_GROUP - brick % VOXTACT_COMPUTE_GROUP, count - brick));
 }
 
+/// Leaves the entry to certified_finish, from a brick on.
+void leaveFrom(uvec4 entry, uint brick, uint groups) {
+    if (!leave(VOXTACT_LEFT_LARGE, gl_WorkGroupID.x, brick, groups)) {
+        atomicOr(results[entry.x].how, VOXTACT_HOW_UNDECIDED_BIT);
+    }
+}
+
 /// Whether the triangle certainly passes through none of a box of bricks.
 bool missesBricks(CertifiedTriangle triangle, CellBox bricks) {
     const VoxelPoint at = middleOf(bricks);
@@ -96,8 +103,7 @@ bool putBlock(uvec4 entry, CertifiedTriangle triangle, CellBox cells, int block)
             left &= left - 1;
             fits = putBrick(entry, triangle, cells, placeIn(box, brick));
             if (!fits && lane == 0) {
-                leave(VOXTACT_LEFT_LARGE, gl_WorkGroupID.x, uint(brick),
-                      groupsFrom(entry, uint(brick), uint(count)));
+                leaveFrom(entry, uint(brick), groupsFrom(entry, uint(brick), uint(count)));
             }
         }
     }
@@ -119,7 +125,7 @@ void main() {
     const int count = volumeOf(box);
     if (!bounds.usable) { // one part has all
         if (lane == 0) {
-            leave(VOXTACT_LEFT_LARGE, gl_WorkGroupID.x, 0, groupsOfTriangle(transform, bounds, cells));
+            leaveFrom(entry, 0, groupsOfTriangle(transform, bounds, cells));
         }
         return;
     }

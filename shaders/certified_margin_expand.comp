@@ -32,9 +32,7 @@ const float kLongSide = 64.0;
 const int kBricksOfBlock = 64;
 const int kMostInBlocks = 65536;
 
-#ifdef CLEARANCE
 const uint kRefused = 2; // beside that the queue is full
-#endif
 
 shared uint groupsIfLeft; // of certified_margin_finish, for all of the work group
 shared uint full;         // the queue is
@@ -214,23 +212,22 @@ void main() {
     if (isCut()) {
         atomicOr(full, 1u); // a lane has many bricks; what was put is decided twice
     }
-#ifdef CLEARANCE
     barrier();
+#ifdef CLEARANCE
     if (full != 0 && own.some && mayLookLessFar(own.pair)) {
         atomicOr(full, kRefused); // for all of the work group
     }
     barrier();
+#endif
     if (lane == 0 && full == 1 && !leave(VOXTACT_LEFT_GROUP, gl_WorkGroupID.x, 0, groupsIfLeft)) {
         atomicOr(full, kRefused);
     }
     barrier();
     if (full >= kRefused && own.some && !isEmpty(cellsOf(bounds))) {
+#ifdef CLEARANCE
         refuse(own.pair);
-    }
 #else
-    barrier();
-    if (lane == 0 && full != 0) {
-        leave(VOXTACT_LEFT_GROUP, gl_WorkGroupID.x, 0, groupsIfLeft);
-    }
+        markUndecided(own.pair);
 #endif
+    }
 }

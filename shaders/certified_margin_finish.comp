@@ -108,14 +108,12 @@ void decideShare(Share given) {
 }
 
 void main() {
-    const uint layer = gl_NumWorkGroups.x * gl_NumWorkGroups.y;
-    const uint groups = queues[constants.headerWord + VOXTACT_GROUPS_LEFT];
-    // One turn, unless the device has not as many work groups.
-    for (uint group = gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y + layer * gl_WorkGroupID.z;
-         group < groups; group += layer * gl_NumWorkGroups.z) {
-        const Share share = shareOfGroup(group);
-        if (share.some && !isDone(share.pair)) {
-            decideShare(share);
-        }
+    const uint group = groupLeft();
+    if (group >= queues[constants.headerWord + VOXTACT_GROUPS_LEFT]) {
+        return;
+    }
+    const Share share = shareOfGroup(group);
+    if (share.some && !isDone(share.pair)) {
+        decideShare(share);
     }
 }

@@ -244,13 +244,13 @@ void lookAtAll(uvec4 entry, ivec3 corner) {
 
 /// Leaves the work group's entry, of that number, to certified_margin_finish.
 void leaveOrRefuse(uint number, uint pair, uint brick, uint groups) {
-#ifdef CLEARANCE
     if (!leave(VOXTACT_LEFT_LARGE, number, brick, groups)) {
+#ifdef CLEARANCE
         refuse(pair);
-    }
 #else
-    leave(VOXTACT_LEFT_LARGE, number, brick, groups);
+        markUndecided(pair);
 #endif
+    }
 }
 
 void main() {

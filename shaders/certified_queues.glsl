@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The queues between the passes of the projection `conservative`: shared.h says where they lie. A work group puts all
 // that it has into a queue at once, with one atomic for the place and one for the work groups of the pass that empties
-// it. Expects `constants` and `kCounters`.
+// it. Expects `constants`, `kCounters` and brickCounts().
 #ifndef VOXTACT_CERTIFIED_QUEUES_GLSL
 #define VOXTACT_CERTIFIED_QUEUES_GLSL
 
@@ -84,18 +84,41 @@ uint groupsOfBricks(uint bricks) {
     return (bricks + kBricksOfGroup - 1) / kBricksOfGroup;
 }
 
-#ifdef CLEARANCE
-/// Work groups of certified_margin_finish in a round, at most: 2^16 looks for each cluster of the room, as the host
-/// has it where it knows the margin. What is beyond is refused.
-uint mostGroupsLeft() {
-    return constants.queueRoom * (65536u / (kBricksOfGroup * 512u));
-}
-#endif
+/// Looks at cells that a work group of certified_finish has, at most.
+const uint kLooksOfGroup = kBricksOfGroup << (3 * VOXTACT_BRICK_SHIFT);
 
-/// An entry of certified_finish, for which it needs `groups` work groups. False: it is refused.
+/// Work groups of certified_finish in a round, at most. What is beyond is refused.
+uint mostGroupsLeft() {
+#ifdef CLEARANCE
+    // As many looks as the host has in a round where it knows the margin.
+    return min(constants.queueRoom * (VOXTACT_LOOKS_OF_CLUSTER / kLooksOfGroup),
+               uint(VOXTACT_MOST_LOOKS) / kLooksOfGroup);
+#else
+    // The host bounds looks, and boxes of large triangles have more bricks than these pass through: some dozens of
+    // times as many. It cannot bound those of triangles that it does not know, nor cut what one cluster has.
+    const uint kMost = VOXTACT_LEFT_LAYER * VOXTACT_LEFT_MOST_LAYERS;
+    const ivec3 size = brickCounts();
+    const uint whole = groupsOfBricks(uint(size.x * size.y * size.z));
+    const uint ofCluster = min(whole, kMost / VOXTACT_CLUSTER_TRIANGLES) * VOXTACT_CLUSTER_TRIANGLES;
+    return min(max(constants.queueRoom * VOXTACT_GROUPS_OF_CLUSTER, ofCluster), kMost);
+#endif
+}
+
+uint leftBlockWord(uint block) {
+    return constants.queueWord + VOXTACT_WORD_LEFT_BLOCKS(constants.queueRoom) + block;
+}
+
+/// A share, of `lanes`, of making the blocks of what is left empty: for the first pass of a round.
+void emptyLeftBlocks(uint lane, uint lanes) {
+    for (uint block = lane; block < VOXTACT_ROOM_LEFT_BLOCKS(constants.queueRoom); block += lanes) {
+        queues[leftBlockWord(block)] = 0;
+    }
+}
+
+/// An entry of certified_finish, for which it needs `groups` work groups. False: it is refused, and what it has of its
+/// pairs is not known.
 bool leave(uint what, uint number, uint brick, uint groups) {
     const uint word = constants.headerWord + 4 * VOXTACT_QUEUE_LEFT;
-#ifdef CLEARANCE
     // Never more than the most, not even for a moment: the sum of all that is refused may not fit into a word.
     uint first = 0;
     uint seen = queues[constants.headerWord + VOXTACT_GROUPS_LEFT];
@@ -107,19 +130,16 @@ bool leave(uint what, uint number, uint brick, uint groups) {
         seen = atomicCompSwap(queues[constants.headerWord + VOXTACT_GROUPS_LEFT], first, first + groups);
     } while (seen != first);
     const uint entry = atomicAdd(queues[word + 3], 1u);
+#ifdef CLEARANCE
     if (entry >= VOXTACT_CLEARANCE_ROOM_LEFT(constants.queueRoom)) {
         return false; // and its work groups find nothing to do
     }
-#else
-    const uint entry = atomicAdd(queues[word + 3], 1u);
-    const uint first = atomicAdd(queues[constants.headerWord + VOXTACT_GROUPS_LEFT], groups);
 #endif
     const uint layers = (first + groups + VOXTACT_LEFT_LAYER - 1) / VOXTACT_LEFT_LAYER -
                         (first + VOXTACT_LEFT_LAYER - 1) / VOXTACT_LEFT_LAYER;
     atomicAdd(queues[word + 2], layers);
-    atomicMin(queues[word + 2], VOXTACT_LEFT_MOST_LAYERS);
-    quads[quadOf(LEFT_WORD, entry)] =
-        uvec4(what << VOXTACT_LEFT_SHIFT | number, brick, groups, first);
+    atomicAdd(queues[leftBlockWord(entry / VOXTACT_LEFT_BLOCK)], groups);
+    quads[quadOf(LEFT_WORD, entry)] = uvec4(what << VOXTACT_LEFT_SHIFT | number, brick, groups, 0);
     return true;
 }
 

@@ -27,6 +27,11 @@ layout(push_constant) uniform Item { CertifiedConstants constants; };
 const bool kCarry = true;
 const bool kYesNo = kStopAtFirst;
 
+/// Bricks of the volume, along each axis.
+ivec3 brickCounts() {
+    return (ivec3(constants.item.sizeX, constants.item.sizeY, constants.item.sizeZ) >> VOXTACT_BRICK_SHIFT) + 1;
+}
+
 #include "stored.glsl"
 #ifdef MARGIN
 #include "certified_margin_look.h"
@@ -106,10 +111,6 @@ ivec3 placeIn(CellBox box, int number) {
     return box.lo + ivec3(number % size.x, row % size.y, row / size.y);
 }
 
-ivec3 brickCounts() {
-    return (ivec3(constants.item.sizeX, constants.item.sizeY, constants.item.sizeZ) >> VOXTACT_BRICK_SHIFT) + 1;
-}
-
 /// The number of a brick in the volume.
 int numberOf(ivec3 brick) {
     const ivec3 count = brickCounts();
@@ -149,13 +150,53 @@ float storedAt(ivec3 voxel) {
 
 #include "exact_language.h"
 
+/// Corners of a cell with the range of the voxels around it alone.
+CertifiedCorners cornersAround(CertifiedCorners corners, ivec3 cell) {
+    CertifiedCorners around = corners;
+    around.wideLo = corners.wideHi;
+    around.wideHi = corners.wideLo;
+    ROLLED for (int i = 0; i < 64; ++i) {
+        const float stored = storedAt(cell - 1 + ivec3(i & 3, (i >> 2) & 3, i >> 4));
+        around.wideLo = certifiedMin(around.wideLo, stored);
+        around.wideHi = certifiedMax(around.wideHi, stored);
+    }
+    if (!(around.wideLo <= around.wideHi)) {
+        return corners; // none of them is a number
+    }
+    return around;
+}
+
+#ifdef MARGIN
+/// Whether a cell may be known far better than its brick's range says: one voxel of that is far from all others.
+bool isInOutlyingRange(CertifiedCorners corners, float stored[8]) {
+    const float kLeastError = 0.0009765625; // entries of the table
+    const float kTimes = 16.0;
+    float lo = stored[0];
+    float hi = stored[0];
+    for (int i = 1; i < 8; ++i) {
+        lo = certifiedMin(lo, stored[i]);
+        hi = certifiedMax(hi, stored[i]);
+    }
+    const float error = certifiedPointError(constants.item, corners.wideLo, corners.wideHi);
+    return error > kLeastError && error > kTimes * certifiedPointError(constants.item, lo, hi);
+}
+#endif
+
+/// `range`: of the cell's brick. With a margin there is no other attempt at a cell, so that where it matters they have
+/// the range of the voxels around it.
 CertifiedCorners cornersOf(ivec3 cell, vec4 range) {
     float stored[8];
     ROLLED for (int i = 0; i < 8; ++i) {
         stored[i] = storedAt(cell + ivec3(i & 1, (i >> 1) & 1, i >> 2));
     }
-    return CertifiedCorners(stored[0], stored[1], stored[2], stored[3], stored[4], stored[5], stored[6], stored[7],
-                            range.z, range.w);
+    const CertifiedCorners corners = CertifiedCorners(stored[0], stored[1], stored[2], stored[3], stored[4], stored[5],
+                                                      stored[6], stored[7], range.z, range.w);
+#ifdef MARGIN
+    if (isInOutlyingRange(corners, stored)) {
+        return cornersAround(corners, cell);
+    }
+#endif
+    return corners;
 }
 
 #include "exact_language.h"

@@ -19,10 +19,27 @@ struct Share {
     int step;
 };
 
-shared uvec4 entryOfGroup; // of the queue of what is left
 shared uint groupsOfLane[VOXTACT_COMPUTE_GROUP];
 
 const Share kNoShare = Share(false, 0, 0, false, ivec3(0), false, 0, 0, 1, 0, 0, 1);
+
+/// Which lane has a work group, of which `groupsOfLane` says how many each has: and which of its own that is.
+struct LaneTurn {
+    uint lane; // VOXTACT_COMPUTE_GROUP: none
+    uint turn;
+};
+
+/// The `turn`th of all. Asked by all lanes together, which have written theirs.
+LaneTurn laneOfTurn(uint turn) {
+    barrier();
+    LaneTurn found = LaneTurn(0, turn);
+    while (found.lane < VOXTACT_COMPUTE_GROUP && found.turn >= groupsOfLane[found.lane]) {
+        found.turn -= groupsOfLane[found.lane];
+        ++found.lane;
+    }
+    barrier(); // they are written again
+    return found;
+}
 
 /// The bricks of a large triangle, or of its part that has every skip + 1st block of 64, that are the `turn`th of those
 /// from `brick` on which a work group has.
@@ -46,47 +63,72 @@ Share shareOfTriangles(uint group, uint turn) {
             groupsOfLane[lane] = groupsOfTriangle(transforms[own.pair], bounds, cells);
         }
     }
-    barrier();
-    uint before = 0;
-    uint of = 0;
-    while (of < VOXTACT_COMPUTE_GROUP && turn - before >= groupsOfLane[of]) {
-        before += groupsOfLane[of];
-        ++of;
-    }
-    if (of == VOXTACT_COMPUTE_GROUP) {
+    const LaneTurn has = laneOfTurn(turn);
+    if (has.lane == VOXTACT_COMPUTE_GROUP) {
         return kNoShare;
     }
-    const TriangleLane found = triangleLane(group, of);
-    return shareOfLarge(found.pair, found.number, 0, 0, turn - before);
+    const TriangleLane found = triangleLane(group, has.lane);
+    return shareOfLarge(found.pair, found.number, 0, 0, has.turn);
+}
+
+/// An entry of what is left, and which of its work groups this is.
+struct LeftTurn {
+    bool some;
+    uvec4 entry;
+    uint turn;
+};
+
+uint entriesLeft() {
+#ifdef CLEARANCE
+    return min(queueCount(VOXTACT_QUEUE_LEFT), VOXTACT_CLEARANCE_ROOM_LEFT(constants.queueRoom));
+#else
+    return queueCount(VOXTACT_QUEUE_LEFT);
+#endif
+}
+
+/// The entry that has the `group`th work group of all. Asked by all lanes together, of what is the same for all.
+LeftTurn entryOfGroup(uint group) {
+    const uint lane = gl_LocalInvocationIndex;
+    const uint entries = entriesLeft();
+    // The lanes have some blocks each, then an entry each of one block.
+    const uint blocks = (entries + VOXTACT_LEFT_BLOCK - 1) / VOXTACT_LEFT_BLOCK;
+    const uint blocksOfLane = (blocks + VOXTACT_COMPUTE_GROUP - 1) / VOXTACT_COMPUTE_GROUP;
+    uint sum = 0;
+    for (uint i = lane * blocksOfLane; i < min((lane + 1) * blocksOfLane, blocks); ++i) {
+        sum += queues[leftBlockWord(i)];
+    }
+    groupsOfLane[lane] = sum;
+    LaneTurn has = laneOfTurn(group);
+    if (has.lane == VOXTACT_COMPUTE_GROUP) {
+        return LeftTurn(false, uvec4(0), 0);
+    }
+    uint block = has.lane * blocksOfLane;
+    while (has.turn >= queues[leftBlockWord(block)]) {
+        has.turn -= queues[leftBlockWord(block)];
+        ++block;
+    }
+    const uint first = block * VOXTACT_LEFT_BLOCK;
+    groupsOfLane[lane] = first + lane < entries ? quads[quadOf(LEFT_WORD, first + lane)].z : 0;
+    has = laneOfTurn(has.turn);
+    return LeftTurn(true, quads[quadOf(LEFT_WORD, first + has.lane)], has.turn);
+}
+
+/// The number of this work group among those for what is left.
+uint groupLeft() {
+    return gl_WorkGroupID.x + gl_NumWorkGroups.x * (gl_WorkGroupID.y + gl_NumWorkGroups.y * gl_WorkGroupID.z);
 }
 
 /// What a work group has of what is left. Asked by all lanes together.
 Share shareOfGroup(uint group) {
     const uint lane = gl_LocalInvocationIndex;
-    if (lane == 0) {
-        entryOfGroup = uvec4(0);
-    }
-    barrier();
-#ifdef CLEARANCE
-    const uint entries = min(queueCount(VOXTACT_QUEUE_LEFT), VOXTACT_CLEARANCE_ROOM_LEFT(constants.queueRoom));
-#else
-    const uint entries = queueCount(VOXTACT_QUEUE_LEFT);
-#endif
-    for (uint i = lane; i < entries; i += VOXTACT_COMPUTE_GROUP) {
-        const uvec4 entry = quads[quadOf(LEFT_WORD, i)];
-        if (group - entry.w < entry.z) {
-            entryOfGroup = entry;
-        }
-    }
-    barrier();
-    const uvec4 entry = entryOfGroup;
-    barrier();
-    if (entry.z == 0) {
+    const LeftTurn left = entryOfGroup(group);
+    if (!left.some) {
         return kNoShare;
     }
+    const uvec4 entry = left.entry;
+    const uint turn = left.turn;
     const uint what = entry.x >> VOXTACT_LEFT_SHIFT;
     const uint number = entry.x & ((1u << VOXTACT_LEFT_SHIFT) - 1);
-    const uint turn = group - entry.w;
     if (what == VOXTACT_LEFT_SMALL) {
         const TriangleLane own = triangleLane(number, lane);
         return Share(own.some, own.pair, own.number, false, ivec3(0), false, 0, VOXTACT_CELLS_OF_A_LANE, 1, 0,

@@ -51,10 +51,13 @@
 #define OPERATION_WIDE_COMPARE 36
 #define OPERATION_WIDE_TO_FLOAT 37
 #define OPERATION_WIDE_OF_FLOAT 38
+#define OPERATION_WIDE_SPECIAL_ADD 39
+#define OPERATION_WIDE_SPECIAL_MULTIPLY 40
+#define OPERATION_WIDE_SPECIAL_COMPARE 41
 /// How many there are.
-#define OPERATION_COUNT 39
+#define OPERATION_COUNT 42
 /// The one behind them: what lanes do together. Its results are those of a work group, OPERATION_GROUP_WORDS each.
-#define OPERATION_GROUP 39
+#define OPERATION_GROUP 42
 #define OPERATION_GROUP_WORDS 3
 
 /// Inputs of an operation, in words, and its results.
@@ -166,27 +169,53 @@ EXACT Wide operationWide(uint high, uint low) {
     return wideBits((high & 0x800fffffu) | ((((high >> 20) & 63u) + 992u) << 20), low);
 }
 
+/// The same of any kind but denormals, on which nothing rests: zero, infinite, NaN, huge, and most of the others.
+EXACT Wide operationAnyWide(uint high, uint low) {
+    const uint kind = (high >> 20) & 7u;
+    const uint sign = high & 0x80000000u;
+    const uint mantissa = high & 0x000fffffu;
+    if (kind == 0u) {
+        return wideBits(sign, 0u);
+    }
+    if (kind == 1u) {
+        return wideBits(sign | 0x7ff00000u, 0u);
+    }
+    if (kind == 2u) {
+        return wideBits(sign | 0x7ff80000u | mantissa, low);
+    }
+    return kind == 3u ? wideBits(sign | 0x7fe00000u | mantissa, low) : operationWide(high, low);
+}
+
 /// Operations of double precision, on a and b, and on c and d; false: it is none of them.
 EXACT bool operationOnWides(int operation, uint a, uint b, uint c, uint d, OUT(uint) low, OUT(uint) high) {
     low = 0u;
     high = 0u;
-    const Wide left = operationWide(a, b);
-    const Wide right = operationWide(c, d);
-    if (operation == OPERATION_WIDE_ADD) {
-        wordsOf(wideAdd(left, right), low, high);
+    const bool special = operation >= OPERATION_WIDE_SPECIAL_ADD && operation <= OPERATION_WIDE_SPECIAL_COMPARE;
+    const Wide left = special ? operationAnyWide(a, b) : operationWide(a, b);
+    const Wide right = special ? operationAnyWide(c, d) : operationWide(c, d);
+    Wide value = left;
+    if (operation == OPERATION_WIDE_ADD || operation == OPERATION_WIDE_SPECIAL_ADD) {
+        value = wideAdd(left, right);
     } else if (operation == OPERATION_WIDE_SUBTRACT) {
-        wordsOf(wideSubtract(left, right), low, high);
-    } else if (operation == OPERATION_WIDE_MULTIPLY) {
-        wordsOf(wideMultiply(left, right), low, high);
-    } else if (operation == OPERATION_WIDE_COMPARE) {
+        value = wideSubtract(left, right);
+    } else if (operation == OPERATION_WIDE_MULTIPLY || operation == OPERATION_WIDE_SPECIAL_MULTIPLY) {
+        value = wideMultiply(left, right);
+    } else if (operation == OPERATION_WIDE_COMPARE || operation == OPERATION_WIDE_SPECIAL_COMPARE) {
         low = (wideLess(left, right) ? 1u : 0u) | (wideAtLeast(left, right) ? 2u : 0u);
         high = wideLess(wideAbs(left), wideAbs(right)) ? 1u : 0u;
+        return true;
     } else if (operation == OPERATION_WIDE_TO_FLOAT) {
         low = wideToFloatBits(left);
+        return true;
     } else if (operation == OPERATION_WIDE_OF_FLOAT) {
-        wordsOf(wideOfFloatBits(bitsOf(operationModerate(a))), low, high);
+        value = wideOfFloatBits(bitsOf(operationModerate(a)));
     } else {
         return false;
+    }
+    wordsOf(value, low, high);
+    if (special && !wideAtLeast(value, value)) { // one NaN is as good as another
+        low = 0u;
+        high = 0x7ff80000u;
     }
     return true;
 }

@@ -244,7 +244,7 @@ struct CertifiedConstants {
 #define VOXTACT_QUEUE_LARGE 2    // pair, triangle, part, parts: for certified_large
 #define VOXTACT_QUEUE_CELLS 3    // pair, triangle, place: for certified_decide
 #define VOXTACT_QUEUE_OPEN 4     // numbers of cells: for certified_finish
-#define VOXTACT_QUEUE_LEFT 5     // VOXTACT_LEFT_* and number, brick, work groups, the first of these: the same
+#define VOXTACT_QUEUE_LEFT 5     // VOXTACT_LEFT_* and number, brick, work groups, 0: the same
 // Those of the search for clearances, shaders/clearance_words.h: slots of bricks, for certified_clearance_bits; and
 // entries of the queue of large triangles that are near, for certified_clearance_sift, _decide and
 // certified_margin_large.
@@ -290,7 +290,11 @@ struct CertifiedConstants {
 // With a margin, of an entry of the queue of large triangles: pair, run, brick, and a bit for each triangle of the run;
 // or pair, triangle, 0, and this: all bricks of one triangle.
 #define VOXTACT_MARGIN_ALL (1u << VOXTACT_RUN_TRIANGLES)
-#define VOXTACT_QUEUE_WORDS(room) (VOXTACT_WORD_LEFT(room) + 4 * VOXTACT_ROOM_LEFT(room))
+// Behind all queues, of so many entries of what is left each: their work groups together.
+#define VOXTACT_LEFT_BLOCK VOXTACT_COMPUTE_GROUP
+#define VOXTACT_WORD_LEFT_BLOCKS(room) (VOXTACT_WORD_LEFT(room) + 4 * VOXTACT_ROOM_LEFT(room))
+#define VOXTACT_ROOM_LEFT_BLOCKS(room) ((room) / 4) // with clearances there are the most entries
+#define VOXTACT_QUEUE_WORDS(room) (VOXTACT_WORD_LEFT_BLOCKS(room) + VOXTACT_ROOM_LEFT_BLOCKS(room))
 // Of a pair that is being measured; lengths are flat, as in certified_margin.h.
 #define VOXTACT_CLEARANCE_LO 0    // nothing opaque is nearer
 #define VOXTACT_CLEARANCE_HI 1    // something is as near
@@ -303,6 +307,8 @@ struct CertifiedConstants {
 #define VOXTACT_CLEARANCE_REFUSED 0u
 // The first, of what begins so far from the volume that it may be farther than VOXTACT_CLEARANCE_FAR.
 #define VOXTACT_CLEARANCE_ASTRAY 2u
+// The distance is 0, as far as rounding tells.
+#define VOXTACT_CLEARANCE_AT_ONCE 3u
 /// Farther than anything, flat, of a mesh that has a point near the volume.
 #define VOXTACT_CLEARANCE_FAR 16777216.0f
 /// Voxels along each axis: from a point that is no farther from the first voxel, all of the volume is within half of
@@ -316,11 +322,18 @@ struct CertifiedConstants {
 #define VOXTACT_LEFT_LARGE 2  // an entry of the queue of large triangles, from a brick on
 #define VOXTACT_LEFT_SHIFT 28 // these are above so many bits of a number
 // The command of certified_finish for what is left has as many layers as it takes, each of VOXTACT_LEFT_COLUMNS times
-// VOXTACT_LEFT_ROWS work groups. The other one has one row: so it knows which it is.
-#define VOXTACT_LEFT_COLUMNS 8
+// VOXTACT_LEFT_ROWS work groups. The other one has one row: so it knows which it is. No work group has two turns: a
+// loop over these could be cut (certified_scene.glsl), and what it had not come to would be missed.
+#define VOXTACT_LEFT_COLUMNS 128
 #define VOXTACT_LEFT_ROWS 2
 #define VOXTACT_LEFT_LAYER (VOXTACT_LEFT_COLUMNS * VOXTACT_LEFT_ROWS)
 #define VOXTACT_LEFT_MOST_LAYERS 65535u // Vulkan's least maxComputeWorkGroupCount
+// Looks of a round at bricks and cells, at most: where triangles are known, and for each cluster of a search's room.
+// With those at small triangles, counters of a round have 32 bits.
+#define VOXTACT_MOST_LOOKS 3500000000.0
+#define VOXTACT_LOOKS_OF_CLUSTER 65536
+// Work groups of certified_finish for what is left, for each cluster of the room: where triangles are not known.
+#define VOXTACT_GROUPS_OF_CLUSTER 4096
 
 // Descriptor sets.
 #define VOXTACT_SET_VOLUME 0

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Double precision by the device's own, for shaders of devices that have it and promise to round as the host does
-// (FloatControls::doubles). Vulkan asks sums, differences and products to be correctly rounded then. It does not ask
-// that of quotients, and a conversion may lose the denormals of floats: these are made of integers here, too. Denormals
-// of doubles may get lost, and nothing rests on them: what floats and a grid are made of is larger by far.
+// Double precision by the device's own, for shaders of devices that have it and promise its rounding and its specials
+// (FloatControls::doubles). Vulkan does not ask results of doubles to be as near as IEEE 754 does: that sums, differences,
+// products and comparisons are the host's, with infinities and NaN too, is what operations.h asks of a device first. Of
+// quotients it asks nothing, and a conversion may lose the denormals of floats: these are made of integers here, too.
+// Denormals of doubles may get lost, and nothing rests on them: what floats and a grid are made of is larger by far.
 #ifndef VOXTACT_WIDE_DOUBLES_GLSL
 #define VOXTACT_WIDE_DOUBLES_GLSL
 
@@ -54,7 +55,8 @@ double wideDivide(double a, double b) {
 }
 
 double wideAbs(double a) {
-    return abs(a);
+    const uvec2 words = unpackDouble2x32(a);
+    return packDouble2x32(uvec2(words.x, words.y & 0x7fffffffu));
 }
 
 bool wideLess(double a, double b) {

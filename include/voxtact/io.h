@@ -27,10 +27,11 @@ using ReadProgress = std::function<bool(std::uint64_t done, std::uint64_t all)>;
 
 /// Which image of a file or folder that holds several is read, and who hears how far that is.
 struct VolumeReadOptions {
-    /// Which image of a 4D NIfTI file, counted from 0. A file that holds several is refused without it.
+    /// Which image of a 4D NIfTI file, counted from 0. A file that holds several is refused without it; of another file
+    /// only 0 is there, and of a folder none.
     std::optional<std::uint32_t> frame;
-    /// SeriesInstanceUID of the series of a DICOM folder. A folder that holds several is refused without it. Empty: the
-    /// only one.
+    /// SeriesInstanceUID of the series of a DICOM folder. A folder that holds several is refused without it, and a file
+    /// with it. Empty: the only one.
     std::string series{}; // the initialisers let {.frame = 3} compile without a warning
     /// Must not throw. Empty: nobody. Not called for bytes in memory.
     ReadProgress progress{};

@@ -68,7 +68,10 @@ constexpr std::array<const char*, OPERATION_COUNT> kNames{"float addition",
                                                           "double multiplication",
                                                           "double comparison",
                                                           "double to float",
-                                                          "float to double"};
+                                                          "float to double",
+                                                          "double addition with NaN and infinity",
+                                                          "double multiplication with NaN and infinity",
+                                                          "double comparison with NaN and infinity"};
 
 float asFloat(std::uint32_t word) {
     return std::bit_cast<float>(word);

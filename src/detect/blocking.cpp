@@ -19,6 +19,7 @@ struct BlockingDetector::State {
     ContextImpl& context;
     Detector detector;
     std::optional<Detector> forMany; ///< forManyPoses(), from the first such batch on
+    bool noForMany = false;          ///< that one cannot be made; the other is as right
     ResultsDesc resultsDesc;
     std::optional<Results> results;
     Submitter submitter;
@@ -84,12 +85,16 @@ std::vector<PairAnswer> unpackAll(std::span<const PairResult> results) {
 
 Result<const Detector*> BlockingDetector::State::detectorFor(const Batch& batch) {
     const std::optional<DetectorDesc> many =
-        hasDevicePoses(batch) ? std::nullopt : forManyPoses(context, detector.desc(), pairsOf(batch));
+        noForMany || hasDevicePoses(batch) ? std::nullopt : forManyPoses(context, detector.desc(), pairsOf(batch));
     if (!many) {
         return &detector;
     }
     if (!forMany) {
         Result<Detector> made = Detector::create(context, *many);
+        if (!made.ok() && doesWithout(made.error())) {
+            noForMany = true;
+            return &detector;
+        }
         VOXTACT_TRY(made);
         forMany = std::move(*made);
     }
@@ -121,7 +126,7 @@ Result<BlockingDetector> BlockingDetector::create(const Context& context, const 
         if (desc.outputs.any()) {
             resultsDesc.room = OutputRoom{.contacts = desc.outputs.contacts ? mostContacts : 0};
         }
-        return BlockingDetector(std::make_unique<State>(State{context.impl(), std::move(*detector), std::nullopt,
+        return BlockingDetector(std::make_unique<State>(State{context.impl(), std::move(*detector), std::nullopt, false,
                                                               resultsDesc, std::nullopt, std::move(*submitter)}));
     });
 }
@@ -135,7 +140,8 @@ Result<BatchAnswer> BlockingDetector::detect(const Batch& batch) {
         VOXTACT_TRY(commandBuffer);
         if (const std::optional<ResultsDesc> wanted =
                 largerFor(batch, s.resultsDesc, s.results, measuredLabels(s.detector.desc(), batch))) {
-            Result<Results> larger = Results::create(s.context, *wanted);
+            Result<Results> larger = stagedWhereThereIsRoom(
+                *wanted, [&](const ResultsDesc& desc) { return Results::create(s.context, desc); });
             VOXTACT_TRY(larger);
             s.results = std::move(*larger);
             s.resultsDesc = *wanted;

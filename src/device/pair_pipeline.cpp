@@ -45,7 +45,7 @@ struct PairPipeline::State {
 
     const VulkanDevice& device;
     const Detector& detector;
-    std::optional<Detector> forMany; ///< forManyPoses(); it then takes the place of the other
+    std::optional<Detector> forMany; ///< forManyPoses(), where it can be made; it then takes the place of the other
     PipelineDesc desc;
     ResultRing results;
     std::vector<Flight> flights;
@@ -249,14 +249,18 @@ Result<PairPipeline> PairPipeline::create(const VulkanDevice& device, const Cont
                               .closest = detector.desc().closest,
                               .labelClearances = how.labels,
                               .staged = true};
-    Result<ResultRing> ring = ResultRing::create(context, how.frames, results);
+    Result<ResultRing> ring = stagedWhereThereIsRoom(
+        results, [&](const ResultsDesc& of) { return ResultRing::create(context, how.frames, of); });
     VOXTACT_TRY(ring);
     auto state = std::make_unique<State>(device, detector, how, std::move(*ring));
     if (const std::optional<DetectorDesc> many =
             forManyPoses(context.impl(), detector.desc(), how.pairsPerSubmission)) {
         Result<Detector> made = Detector::create(context, *many);
-        VOXTACT_TRY(made);
-        state->forMany = std::move(*made);
+        if (made.ok()) {
+            state->forMany = std::move(*made);
+        } else if (!doesWithout(made.error())) {
+            return made.error();
+        }
     }
     for (Flight& flight : state->flights) {
         VOXTACT_TRY(state->makeFlight(flight));

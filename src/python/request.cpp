@@ -173,6 +173,18 @@ Question questionOf(const py::dict& options) {
         refuseArgument(std::string("samples_per_voxel is for projection='dominant-axis', not for '") +
                        toString(question.projection) + "'");
     }
+    const bool certified = question.projection == Projection::Conservative;
+    if (options.contains("view") && (certified || question.projection == Projection::DominantAxis)) {
+        refuseArgument(std::string("view is for projection='view' and 'two-view', not for '") +
+                       toString(question.projection) + "'");
+    }
+    if (options.contains("resolution") && !certified) {
+        refuseArgument(std::string("resolution is for projection='conservative', not for '") +
+                       toString(question.projection) + "'");
+    }
+    if (question.boundary == Boundary::Clamp && certified) {
+        refuseArgument("boundary='clamp' is not for projection='conservative', which always tests the range");
+    }
     return question;
 }
 

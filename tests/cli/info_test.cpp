@@ -59,6 +59,12 @@ TEST_F(InfoTest, OneOfSeveralImages) {
     EXPECT_EQ(row.at("value_max"), 23);
     EXPECT_THAT(refused(1, {"info", file}), HasSubstr("(frame 0 to 2; to the program: PATH#0)"));
     EXPECT_THAT(refused(1, {"info", file + "#3"}), HasSubstr("it has no frame 3"));
+    output({"make", "volume", "builtin:head:16", path("one.nrrd")});
+    output({"make", "volume", "builtin:head:16", path("one.mha")});
+    for (const char* name : {"one.nrrd", "one.mha"}) {
+        EXPECT_EQ(rows({path(name) + "#0"}).size(), 1U);
+        EXPECT_THAT(refused(1, {"info", path(name) + "#1"}), HasSubstr("it has no frame 1: it holds 1 image"));
+    }
     EXPECT_THAT(refused(1, {"info", file + "#last"}), HasSubstr("is not the number of an image in"));
     EXPECT_THAT(refused(2, {"info", file + "#1", "--output", file}), HasSubstr("is not overwritten"));
     // Wherever a volume is named.

@@ -202,7 +202,23 @@ TEST_F(PlanTest, RefusesWhatItCannotUse) {
         EXPECT_THAT(avoiding({"--target", "0,0,0", "--entry-radius", radius}),
                     HasSubstr("--entry-radius: '" + std::string(radius) + "' is not a number above 0.001"));
     }
+    // By the option that it was given by; and an empty text is none.
+    for (const char* list : {"100:0,90:1", "bogus", ""}) {
+        EXPECT_THAT(line({"--target", "0,0,0", "--avoid-opacity", list}),
+                    HasSubstr("plan: --avoid-opacity '" + std::string(list) + "': "));
+    }
+    EXPECT_THAT(avoiding({"--target", "0,0,0", "--opacity", "bogus"}), HasSubstr("plan: --opacity 'bogus': "));
+    for (const char* option : {"--entry-label", "--avoid-volume"}) {
+        EXPECT_THAT(avoiding({"--target", "0,0,0", option, ""}), HasSubstr("an empty value"));
+    }
     EXPECT_EQ(filesInFolder(), 3U);
+}
+
+/// Entries that are given are not where something is opaque.
+TEST_F(PlanTest, SaysWhatItDoesNotAsk) {
+    const Arguments given{"--target",       "0,0,0", "--avoid-opacity", "200:0,201:1",
+                          "--entry-radius", "40",    "--opacity",       "40:0,80:1"};
+    output(plan(given), {.note = "they are not used"});
 }
 
 } // namespace

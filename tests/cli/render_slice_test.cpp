@@ -115,8 +115,7 @@ TEST_F(RenderSliceTest, InterruptedItLeavesNoFile) {
 TEST_F(RenderSliceTest, OutlinesSayWhereItTouches) {
     // Half in the head, half in the air before it.
     writeText(path("plate.obj"), "v -30 -40 -20\nv 30 -40 -20\nv 30 -150 20\nv -30 -150 20\nf 1 2 3\nf 1 3 4\n");
-    const Arguments pair{"--slice",       "axial:0", "--mesh",    path("plate.obj"),
-                         "--mesh-colour", "00ff00",  "--opacity", "50:0,200:1"};
+    const Arguments pair{"--slice", "axial:0", "--mesh", path("plate.obj"), "--mesh-colour", "00ff00"};
     const auto with = [&](const Arguments& more) {
         Arguments all = pair;
         all.insert(all.end(), more.begin(), more.end());
@@ -128,7 +127,7 @@ TEST_F(RenderSliceTest, OutlinesSayWhereItTouches) {
     EXPECT_EQ(pixelsThat(with({}), red), 0U);
     EXPECT_GT(pixelsThat(with({}), green), 10U);
     writeText(path("slant.txt"), "1 0 0 0  0 0 -1 -60  0 1 0 60  0 0 0 1\n");
-    const Arguments slanted{"--poses", path("slant.txt"), "--show"};
+    const Arguments slanted{"--opacity", "50:0,200:1", "--poses", path("slant.txt"), "--show"};
     const auto shown = [&](const char* what) {
         Arguments all = slanted;
         all.emplace_back(what);
@@ -140,8 +139,22 @@ TEST_F(RenderSliceTest, OutlinesSayWhereItTouches) {
     EXPECT_GT(pixelsThat(shown("triangles"), red) + pixelsThat(shown("triangles"), green), 2U);
 }
 
+/// What is given for nothing is said.
+TEST_F(RenderSliceTest, WhatASliceDoesNotAsk) {
+    const std::string png = path("a.png");
+    EXPECT_THAT(refused(2, render(png, {"--slice", "axial", "--validate"})), HasSubstr("there is nothing to validate"));
+    EXPECT_EQ(filesInFolder(), 0U);
+    output(render(png, {"--slice", "axial", "--device", "no such device"}), {.note = "--device: a slice is drawn"});
+    output(render(png, {"--slice", "axial", "--opacity", "40:0,80:1"}), {.note = "they are not used"});
+    output({"render", "--volume", "builtin:head:16", "--slice", "axial", "--title", "Head", "--size", "64x64",
+            "--output", png},
+           {.note = "--title: it is written from 320x320 on"});
+}
+
 TEST_F(RenderSliceTest, WhatCannotBe) {
     const std::string png = path("a.png");
+    EXPECT_THAT(refused(2, {"render", "--volume", "builtin:head:16", "--mesh-colour", "ff0000", "--output", png}),
+                HasSubstr("--mesh is missing"));
     EXPECT_THAT(refused(2, render(png, {"--slice", "axial:500"})),
                 AllOf(HasSubstr("--slice axial:500 is outside of the volume"), HasSubstr("to"), HasSubstr("mm")));
     EXPECT_THAT(refused(2, render(png, {"--slice", "view:-400"})), HasSubstr("outside of the volume"));

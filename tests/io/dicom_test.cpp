@@ -68,6 +68,7 @@ TEST(Dicom, OneOfSeveralSeries) {
     }
     expectCt(io::readVolume(folder.path(), {.frame = {}, .series = "1.2.3.4"}), 3);
     expectCt(io::readVolume(folder.path(), {.frame = {}, .series = "5.5.5"}), 2);
+    expectRefused(io::readVolume(folder.path(), {.frame = 0, .series = "5.5.5"}), "no frame (0)", folder.path());
 }
 
 TEST(Dicom, OtherFilesBesideTheSlices) {

@@ -296,6 +296,16 @@ TEST(Volume, ANrrdsSpaceHasThreeDimensions) {
     EXPECT_TRUE(read("space dimension: 3\nspace directions: (1,0,0) (0,1,0) (0,0,1)\n").ok());
 }
 
+/// One image is there, and no series.
+TEST(Volume, OneImageOfAFileThatHoldsOne) {
+    const TemporaryFolder folder;
+    const std::filesystem::path path = folder.write("v.nrrd", plainNrrd("spacings: 1 2 3\n"));
+    EXPECT_TRUE(isOk(io::readVolume(path, {.frame = 0})));
+    expectRefused(io::readVolume(path, {.frame = 1}), "it has no frame 1: it holds 1 image", path);
+    expectRefused(io::readVolume(path, {.frame = {}, .series = "1.2.3"}),
+                  "no folder that holds the DICOM series '1.2.3'", path);
+}
+
 TEST(Volume, LengthsAreMillimetres) {
     using testing::Contains;
     using testing::HasSubstr;

@@ -144,6 +144,10 @@ def test_looks(device, tmp_path):
 
 @pytest.mark.parametrize("options, text", [
     (dict(clip="behind"), "clip 'behind' is none of left"),
+    (dict(show="plain"), "show is about meshes, and there is none"),
+    (dict(through=0.5), "through is about meshes, and there is none"),
+    (dict(clip="left", clip_meshes=True), "clip_meshes is about meshes, and there is none"),
+    (dict(pose=np.eye(4)), "pose is about a mesh, and there is none"),
     (dict(clip=[("left", float("nan"))]), "clip 'left' is at nan"),
     (dict(clip=[(0, 0, 0, 1)]), "normal"),
     (dict(clip=["left"] * 7), "7|six|6"),

@@ -188,6 +188,17 @@ def test_samples_of_a_projection_that_has_none(scene):
         say(caught)
 
 
+@pytest.mark.parametrize("projection, options, message", [
+    ("conservative", dict(view=vx.View(EYE, 32, 32)), "view is for projection='view' and 'two-view', not for 'conservative'"),
+    ("dominant-axis", dict(view=vx.View(EYE, 32, 32)), "view is for projection='view' and 'two-view', not for 'dominant-axis'"),
+    ("view", dict(resolution=0.5), "resolution is for projection='conservative', not for 'view'"),
+    ("conservative", dict(boundary="clamp"), "boundary='clamp' is not for projection='conservative'")])
+def test_what_a_projection_does_not_ask(scene, projection, options, message):
+    with pytest.raises(vx.InvalidArgumentError, match=message) as caught:
+        scene.detect(cube(), EYE, projection=projection, **options)
+    say(caught)
+
+
 def test_an_array_for_a_number_is_told_in_one_line(scene):
     with pytest.raises(TypeError, match="margin is array.*; a number is needed") as caught:
         scene.within(cube(), EYE, margin=EYE)

@@ -120,6 +120,24 @@ TEST(Operations, ComparisonsThatForgetNaNAreNoticed) {
     EXPECT_GT(noticed(OPERATION_FLOAT_SPECIAL_ADD, finite), 1000U);
 }
 
+TEST(Operations, DoublesThatForgetNaNAndInfinityAreNoticed) {
+    const auto any = [](const std::uint32_t* words) { return shader::operationAnyWide(words[0], words[1]); };
+    const auto saturated = [&](const std::uint32_t* in, std::uint32_t right) {
+        const bool finite = std::isfinite(any(in)) && std::isfinite(any(in + 2));
+        return finite && std::isinf(any(in) * any(in + 2)) ? 0xffffffffU : right;
+    };
+    EXPECT_GT(noticed(OPERATION_WIDE_SPECIAL_MULTIPLY, saturated), 100U);
+    const auto ordered = [&](const std::uint32_t* in, std::uint32_t) {
+        const bool less = any(in) < any(in + 2);
+        return less ? 1U : 2U;
+    };
+    EXPECT_GT(noticed(OPERATION_WIDE_SPECIAL_COMPARE, ordered), 1000U);
+    const auto largest = [&](const std::uint32_t* in, std::uint32_t right) {
+        return std::isinf(any(in)) || std::isinf(any(in + 2)) ? 0xffffffffU : right;
+    };
+    EXPECT_GT(noticed(OPERATION_WIDE_SPECIAL_ADD, largest), 1000U);
+}
+
 /// Nothing rests on denormals, so a device that takes them for zero is right.
 TEST(Operations, FlushedDenormalsAreAllowed) {
     const auto flushed = [](float value) { return std::fpclassify(value) == FP_SUBNORMAL ? value * 0.0F : value; };

@@ -71,11 +71,6 @@ std::function<void(const std::string&)> refusing(const char* option, const UseTe
     };
 }
 
-/// A shell variable that is not set must not silently mean the default.
-std::string refuseEmpty(const std::string& text) {
-    return text.empty() ? "an empty value" : "";
-}
-
 VkExtent2D parseSize(const char* option, const std::string& text) {
     const std::size_t cross = text.find('x');
     if (cross != std::string::npos) {
@@ -104,6 +99,10 @@ ValueRange parseDomain(const char* option, const std::string& text) {
 }
 
 } // namespace
+
+std::string refuseEmpty(const std::string& text) {
+    return text.empty() ? "an empty value" : "";
+}
 
 void addNumber(CLI::App& parser, const char* option, const std::function<void(double)>& store, const std::string& help,
                const std::function<bool(double)>& usable, const char* range, const char* standard) {

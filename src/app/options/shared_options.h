@@ -40,6 +40,7 @@ struct MeshOptions {
 struct TransferFunctionOptions {
     std::filesystem::path path;
     std::optional<std::string> opacity;
+    const char* opacityOption = "--opacity"; ///< that `opacity` was given by
     std::optional<ValueRange> domain;
     std::uint32_t tableSize = kDefaultTableSize;
     double threshold = kDefaultThreshold;
@@ -82,7 +83,9 @@ void addSeed(CLI::App& parser, std::uint64_t& seed);
 /// A finite number that is `usable`, as an option; `range` says in words which are.
 void addNumber(CLI::App& parser, const char* option, const std::function<void(double)>& store, const std::string& help,
                const std::function<bool(double)>& usable, const char* range, const char* standard);
-/// A path, as an option. An empty one (a shell variable that is not set) is refused.
+/// A check of options whose empty text would mean the default: a shell variable that is not set must not.
+[[nodiscard]] std::string refuseEmpty(const std::string& text);
+/// A path, as an option, with that check.
 void addPath(CLI::App& parser, const char* option, std::filesystem::path& path, const std::string& help);
 void addVolumeOption(CLI::App& parser, std::vector<std::string>& sources);
 void addMeshOptions(CLI::App& parser, MeshOptions& options, bool required = true);

@@ -133,6 +133,7 @@ Result<void> readObstacles(const PlanOptions& options, PlanInputs& inputs) {
         TransferFunctionOptions how = options.transferFunction;
         how.path.clear();
         how.opacity = options.avoidOpacity;
+        how.opacityOption = kAvoidOpacity;
         VOXTACT_TRY(readAvoided(options, how, inputs));
     }
     inputs.task.obstacles = inputs.obstacles;
@@ -186,6 +187,11 @@ Result<std::unique_ptr<PlanInputs>> readPlan(const PlanOptions& options) {
     VOXTACT_TRY(readObstacles(options, *inputs));
     VOXTACT_TRY(chooseSurface(options, *inputs));
     VOXTACT_TRY(readTargets(options, *inputs));
+    if (inputs->task.surface.volume == nullptr && options.picture.empty() &&
+        (options.transferFunction.opacity || !options.transferFunction.path.empty())) {
+        inputs->notes.emplace_back("--opacity, --transfer-function: of entries that are given nothing is asked about "
+                                   "what is opaque; they are not used");
+    }
     inputs->task.target = inputs->targets.front().at;
     inputs->task.margin = options.margin;
     inputs->task.longest = options.longest;

@@ -32,7 +32,8 @@ void addObstacleOptions(CLI::App& parser, const std::shared_ptr<PlanOptions>& op
                     "what must not be touched besides: all that is opaque under this list \"v:a,v:a,...\"")
         ->type_name("LIST");
     parser.add_option("--avoid-volume", options->avoidVolume, "in this volume; default: the one of --volume")
-        ->type_name("PATH");
+        ->type_name("PATH")
+        ->check(refuseEmpty);
     addVector(parser, "--tip", options->tip, "the tip of a mesh, in its coordinates");
     addVector(parser, "--axis", options->axis, "from the tip of a mesh to where it is held, in its coordinates");
 }
@@ -59,7 +60,8 @@ void addEntryOptions(CLI::App& parser, const std::shared_ptr<PlanOptions>& optio
     parser
         .add_option("--entry-label", options->entryLabel,
                     "entries are on the outside of this label; default: of what is opaque")
-        ->type_name("LABEL");
+        ->type_name("LABEL")
+        ->check(refuseEmpty);
     addNumber(
         parser, "--entry-radius", [options](double mm) { options->entryRadius = mm; },
         "entries are all so far from the target, mm", [](double mm) { return mm > kNearestEntry; }, "above 0.001",

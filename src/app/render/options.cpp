@@ -206,6 +206,12 @@ Result<void> checkRenderOptions(const RenderOptions& options) {
     if (options.meshes.sources.empty() && (!options.view.poses.empty() || options.poses)) {
         return badArgument("--poses and --pose are for a mesh; --mesh is missing");
     }
+    if (options.meshes.sources.empty() && !options.meshColours.empty()) {
+        return badArgument("--mesh-colour is for a mesh; --mesh is missing");
+    }
+    if (options.slice && options.device.validate) {
+        return badArgument("--validate: a slice is drawn without Vulkan, there is nothing to validate; leave it out");
+    }
     if (options.meshColours.size() > std::max<std::size_t>(options.meshes.sources.size(), 1)) {
         return badArgument("--mesh-colour is given " + std::to_string(options.meshColours.size()) + " times, --mesh " +
                            std::to_string(options.meshes.sources.size()) + " times");
@@ -216,6 +222,22 @@ Result<void> checkRenderOptions(const RenderOptions& options) {
     }
     return checkOutputs({{"--output", options.output}},
                         inputPaths(options.volumes, options.meshes, options.transferFunction, options.view));
+}
+
+std::vector<std::string> unusedNotes(const RenderOptions& options, bool annotated) {
+    std::vector<std::string> notes;
+    if (options.slice && !options.device.wanted.empty()) {
+        notes.emplace_back("--device: a slice is drawn without one");
+    }
+    const TransferFunctionOptions& function = options.transferFunction;
+    if (options.slice && options.show.what.empty() && (function.opacity || !function.path.empty() || function.domain)) {
+        notes.emplace_back("--opacity, --transfer-function, --tf-domain: a slice without --show has gray values, "
+                           "whatever is opaque; they are not used");
+    }
+    if (!options.title.empty() && !annotated) {
+        notes.emplace_back("--title: it is written from 320x320 on, or with --annotate");
+    }
+    return notes;
 }
 
 Result<std::vector<std::uint32_t>> chosenPoses(const std::optional<PoseChoice>& choice, std::size_t poses) {

@@ -49,6 +49,9 @@ void addRenderOptions(CLI::App& parser, RenderOptions& options);
 /// What a parser cannot see.
 [[nodiscard]] Result<void> checkRenderOptions(const RenderOptions& options);
 
+/// What is given, and has no effect on this picture. `annotated`: something is written on it.
+[[nodiscard]] std::vector<std::string> unusedNotes(const RenderOptions& options, bool annotated);
+
 /// The numbers of the chosen poses, of so many.
 [[nodiscard]] Result<std::vector<std::uint32_t>> chosenPoses(const std::optional<PoseChoice>& choice,
                                                              std::size_t poses);

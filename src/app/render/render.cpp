@@ -3,6 +3,7 @@
 #include "app/commands.h"
 #include "app/options/open_session.h"
 #include "app/output/interrupt.h"
+#include "app/output/standard_streams.h"
 #include "app/render/device_picture.h"
 #include "core/base/try.h"
 #include "voxtact/io.h"
@@ -117,6 +118,9 @@ Outcome runRender(const RenderOptions& options) {
     VOXTACT_TRY(checkRenderOptions(options));
     const Result<RenderInputs> inputs = readRenderInputs(options);
     VOXTACT_TRY(inputs);
+    for (const std::string& note : unusedNotes(options, inputs->room.has_value())) {
+        printNote(note);
+    }
     const InterruptGuard guard; // a signal before leaves nothing behind either
     const Outcome outcome = drawAndWrite(options, *inputs);
     // Else the file was complete before the signal.

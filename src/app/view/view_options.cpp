@@ -175,6 +175,10 @@ Result<void> checkViewerOptions(const ViewerOptions& options) {
     if (options.volumes.size() > 1) {
         return badArgument("--volume: the window shows one; leave out the others");
     }
+    if (options.device.wanted == "cpu" && options.method.count.value_or(CountingMethod::Cpu) != CountingMethod::Cpu) {
+        return badArgument(std::string("--count ") + toString(*options.method.count) +
+                           ": --device cpu has the host answer, by the method cpu; leave out one of the two");
+    }
     const view::MethodChoice method = methodOf(options).value_or(view::MethodChoice{});
     if (rowOf(method.projection).certified && !rowOf(method.count).certified) {
         return badArgument(std::string("--count ") + toString(method.count) +

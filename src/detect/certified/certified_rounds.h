@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "shared.h"
 #include "voxtact/detector.h"
 
 #include <algorithm>
@@ -23,9 +24,7 @@ struct RoundLimits {
     return stopAtFirst ? queueRoom : queueRoom / 4;
 }
 [[nodiscard]] constexpr double looksOfRound(std::uint32_t queueRoom) noexcept {
-    constexpr double kLooksOfCluster = 65536;
-    constexpr double kMostLooks = 3.5e9; // with those at small triangles, counters of a round have 32 bits
-    return std::min(queueRoom * kLooksOfCluster, kMostLooks);
+    return std::min(queueRoom * double{VOXTACT_LOOKS_OF_CLUSTER}, VOXTACT_MOST_LOOKS);
 }
 
 /// What an item asks for at most.

@@ -87,21 +87,6 @@ Result<std::optional<Scaling>> scalingOf(const fs::path& path, const NiftiHeader
     return std::optional(Scaling{slope, intercept});
 }
 
-/// Which of several images along the fourth axis.
-Result<std::uint64_t> frameOf(const fs::path& path, std::uint64_t frames, const VolumeReadOptions& options) {
-    if (!options.frame && frames > 1) {
-        return cannotRead(path, "it is 4D and holds " + std::to_string(frames) +
-                                    " images; name the one that is meant (frame 0 to " + std::to_string(frames - 1) +
-                                    "; to the program: PATH#0)");
-    }
-    const std::uint64_t frame = options.frame.value_or(0);
-    if (frame >= frames) {
-        return cannotRead(path, "it has no frame " + std::to_string(frame) + ": it holds " + std::to_string(frames) +
-                                    (frames == 1 ? " image" : " images") + ", counted from 0");
-    }
-    return frame;
-}
-
 struct NiftiContent {
     NiftiHeader header;
     StoredImage image; ///< without voxels

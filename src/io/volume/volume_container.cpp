@@ -89,15 +89,31 @@ Result<ContainedImage> readContainer(const VolumeSource& source, const std::file
     if (!format) {
         return unknownFormat(source, path);
     }
-    switch (*format) {
-    case VolumeFormat::Nifti:
-        return readNifti(source, path, options);
-    case VolumeFormat::Nrrd:
-        return readNrrd(source, path);
-    case VolumeFormat::Meta:
-        break;
+    if (!options.series.empty()) {
+        return cannotRead(path, "it is a file, and no folder that holds the DICOM series '" + options.series + "'");
     }
-    return readMeta(source, path);
+    if (*format == VolumeFormat::Nifti) {
+        return readNifti(source, path, options);
+    }
+    Result<ContainedImage> read = *format == VolumeFormat::Nrrd ? readNrrd(source, path) : readMeta(source, path);
+    VOXTACT_TRY(read);
+    VOXTACT_TRY(frameOf(path, 1, options)); // their files hold one
+    return read;
+}
+
+Result<std::uint64_t> frameOf(const std::filesystem::path& path, std::uint64_t frames,
+                              const VolumeReadOptions& options) {
+    if (!options.frame && frames > 1) {
+        return cannotRead(path, "it is 4D and holds " + std::to_string(frames) +
+                                    " images; name the one that is meant (frame 0 to " + std::to_string(frames - 1) +
+                                    "; to the program: PATH#0)");
+    }
+    const std::uint64_t frame = options.frame.value_or(0);
+    if (frame >= frames) {
+        return cannotRead(path, "it has no frame " + std::to_string(frame) + ": it holds " + std::to_string(frames) +
+                                    (frames == 1 ? " image" : " images") + ", counted from 0");
+    }
+    return frame;
 }
 
 Result<std::uint64_t> imageBytes(const std::filesystem::path& path, std::span<const std::int64_t> sizes,

@@ -61,6 +61,10 @@ struct ContainedImage {
 [[nodiscard]] Result<std::uint64_t> frameBytes(const std::filesystem::path& path, std::vector<std::int64_t> sizes,
                                                std::uint64_t bytesPerVoxel, std::uint64_t& frames);
 
+/// Which of so many images of a file is wanted, from 0.
+[[nodiscard]] Result<std::uint64_t> frameOf(const std::filesystem::path& path, std::uint64_t frames,
+                                            const VolumeReadOptions& options);
+
 /// The image's voxels: the next bytes of `reader`, turned to the machine's byte order.
 [[nodiscard]] Result<void> takeVoxels(ByteReader& reader, StoredImage& image, bool swapped);
 

@@ -14,6 +14,10 @@ namespace {
 namespace fs = std::filesystem;
 
 Result<VolumeData> readFolder(const fs::path& path, const VolumeReadOptions& options, std::vector<std::string>& notes) {
+    if (options.frame) {
+        return cannotRead(path, "it is a folder of DICOM files: one of several series is chosen, and no frame (" +
+                                    std::to_string(*options.frame) + ")");
+    }
     Result<StoredImage> image = readDicomFolder(path, options, notes);
     return image.ok() ? toScalars(std::move(*image), path) : Result<VolumeData>(image.error());
 }

@@ -116,6 +116,8 @@ def picture_options(pairs: int, meshes: int, *, size: list[int], view: Any, pres
         "size": size, "view": view_options(view), "lighting": lighting,
         "background": _colour(background, "background"), "clip": _clips(clip), "clip_meshes": bool(clip_meshes),
         "show": show if show is not None else "contacts" if triangles is None else "triangles"}
+    if clip_meshes and not options["clip"]:
+        raise InvalidArgumentError("clip_meshes takes of meshes what clip takes away, and there is no clip")
     if preset is not None:
         options["preset"] = preset
     if colours is not None:
@@ -124,6 +126,11 @@ def picture_options(pairs: int, meshes: int, *, size: list[int], view: Any, pres
         options["through"] = number(through, "through")
         if not 0 <= options["through"] <= 1:
             raise InvalidArgumentError(f"through is {through!r}; it must be from 0 to 1")
+        if show == "plain":
+            raise InvalidArgumentError("through is about what is painted on meshes, and show='plain' paints nothing")
+    for name, given in (("show", show), ("through", through), ("clip_meshes", clip_meshes or None)):
+        if given is not None and meshes == 0:
+            raise InvalidArgumentError(f"{name} is about meshes, and there is none")
     if mesh_colours is not None:
         options["mesh_colours"] = [_colour(each, "mesh_colours") for each in mesh_colours]
     if triangles is not None:

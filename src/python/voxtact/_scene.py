@@ -486,6 +486,8 @@ class Scene:
         meshes, matrices = None, None
         if mesh is not None:
             meshes, matrices = asked(mesh, np.eye(4) if pose is None and isinstance(mesh, Mesh) else pose)
+        elif pose is not None:
+            raise InvalidArgumentError("pose is about a mesh, and there is none")
         count = 0 if meshes is None else 1 if matrices is not None else len(meshes)
         if show == "triangles" and triangles is None:
             triangles = () if mesh is None else self.detect(mesh, matrices, triangles=True).triangles

@@ -227,6 +227,39 @@ TEST_F(StagedTest, ConveniencesMakePairsOnAGpu) {
     }
 }
 
+/// What staged pairs take is more than all else of as many: where only they do not fit, a batch is answered without.
+TEST_F(StagedTest, ConveniencesDoWithoutWhereThereIsNoRoom) {
+    constexpr std::uint32_t kPairs = 81920;
+    const VolumeData head = take(makeBuiltinVolume("head:32"));
+    const Volume volume = take(Volume::upload(context(), queue(), head.view(), {.bricks = true}));
+    const std::array points{ControlPoint{40, 0}, ControlPoint{80, 1}};
+    const TransferFunction function = upload(points, {0, 255});
+    const Mesh mesh = upload(makeFlat(0, 1, 0, 1, 0.5));
+    const std::vector<Mat4> poses(kPairs, identity());
+    const BatchItem item{&mesh, &volume, &function, poses};
+    const Batch batch{{&item, 1}};
+    const DetectorDesc desc{
+        .method = CountingMethod::Compute, .projection = Projection::Conservative, .stopAtFirst = true};
+    const ResultsDesc staged{.maxPairs = kPairs, .staged = true};
+    const VkDeviceSize most = std::exchange(context().impl().maxAllocation, VkDeviceSize{kPairs} * 247);
+    const Result<Results> refused = Results::create(context(), staged);
+    BlockingDetector blocking = take(BlockingDetector::create(context(), desc, queue()));
+    const Result<BatchAnswer> answer = blocking.detect(batch);
+    const Detector detector = take(Detector::create(context(), desc));
+    Result<device::PairPipeline> pipeline =
+        device::PairPipeline::create(gpu().device, context(), detector, {.frames = 2, .pairsPerSubmission = kPairs});
+    context().impl().maxAllocation = most;
+    ASSERT_FALSE(refused.ok());
+    ASSERT_TRUE(answer.ok()) << answer.error().text;
+    EXPECT_EQ(answer.value().pairs.size(), kPairs);
+    ASSERT_TRUE(pipeline.ok()) << pipeline.error().text;
+    std::uint32_t piped = 0;
+    take(pipeline.value().run(batch, {.pair = [&](const device::TimedAnswer& timed) {
+                                  piped += timed.answer.hit == answer.value().pairs[0].hit ? 1U : 0U;
+                              }}));
+    EXPECT_EQ(piped, kPairs);
+}
+
 /// Poses on the device between those of the host, which are copied to both sides of them.
 TEST_F(StagedTest, BesidePosesOnTheDevice) {
     std::mt19937_64 random(testSeed());
