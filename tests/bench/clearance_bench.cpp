@@ -209,7 +209,7 @@ void measureClearance(const Scene& scene) {
 }
 
 void measureFclDistance(const Scene& scene) {
-    const lab::FclDistance fcl = lab::makeFclDistance(*scene.volume.fcl, scene.data.positions, scene.data.indices);
+    const lab::FclDistance fcl = scene.volume.fcl->distance({scene.data.positions, scene.data.indices});
     const std::size_t poses = std::min(kSlow, scene.poses.size());
     Errors errors;
     std::size_t touching = 0;
@@ -321,7 +321,7 @@ using Way = std::array<Mat4, 2>;
 
 /// What FCL says of the ways, beside what is certain.
 void measureFclMotions(const Scene& scene, const std::vector<Way>& ways, const std::vector<SegmentMotion>& truth) {
-    const lab::FclMotion fcl = lab::makeFclMotion(*scene.volume.fcl, scene.data.positions, scene.data.indices);
+    const lab::FclMotion fcl = scene.volume.fcl->motion({scene.data.positions, scene.data.indices});
     std::printf("%-50s returns %g\n", "FCL continuousCollide(), conservative advancement",
                 fcl(ways[0][0], ways[0][1], lab::FclOnTheWay::Advance, 0));
     for (const unsigned poses : {10U, 100U}) {

@@ -5,7 +5,7 @@
 #include "app/detect/speed_cache.h"
 #include "core/base/try.h"
 #include "core/method/method_table.h"
-#include "lab/measure/host_speed.h"
+#include "lab/engines/engine.h"
 #include "voxtact/cpu.h"
 #include "voxtact/samples.h"
 

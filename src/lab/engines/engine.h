@@ -103,6 +103,8 @@ template <class Desc>
 
 /// The host.
 [[nodiscard]] MadeEngine makeHostEngine(const cpu::DetectorDesc& desc = {});
+/// What measureMethods() does for a device's methods, for the host engine. Not trusted where it fails.
+[[nodiscard]] MethodSpeed measureHost(const MeasureScene& scene, std::uint32_t repetitions);
 /// A method of the device; what it is given must outlive it.
 [[nodiscard]] MadeEngine makeDeviceEngine(const device::Session& session, const DetectorDesc& desc);
 /// The same by the blocking convenience, all pairs in one submission, whatever the feeding. With

@@ -25,13 +25,13 @@ Engine makeFclEngine(const VolumePart& volume, const MeshPart& mesh, FclScalar s
     return engineOf({.name = scalar == FclScalar::Float ? "fcl-float" : "fcl-double",
                      .projection = "octree",
                      .question = questionOf(true, {})},
-                    makeFclPeer(*volume.fcl, mesh.data.positions, mesh.data.indices, scalar), askFcl);
+                    volume.fcl->peer({mesh.data.positions, mesh.data.indices}, scalar), askFcl);
 }
 
 std::string makeOctree(VolumePart& volume) {
     const Result<OpaqueCells> cells = opaqueCells(volume.data.view(), volume.transferFunction(), volume.threshold);
-    if (fclVersion().empty() || !cells.ok()) {
-        return "FCL: " + (cells.ok() ? "not built in" : cells.error().text);
+    if (!cells.ok()) {
+        return "FCL: " + cells.error().text;
     }
     Vec3 origin{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -41,12 +41,14 @@ std::string makeOctree(VolumePart& volume) {
     std::string why;
     volume.fcl = makeFclVolume(
         {cells->size, cells->side, &cells->opaque, multiply(cells->world_from_cells, translation(origin))}, why);
-    return volume.fcl == nullptr ? "FCL: " + why
-                                 : fclVersion() + ": BVHModel of OBBRSS against an octree of opaque voxels" +
-                                       (cells->resampled ? ", which are no cubes: cells of the smallest "
-                                                           "spacing, each "
-                                                           "with the value of the voxel at its centre"
-                                                         : "");
+    if (volume.fcl == nullptr) {
+        return "FCL: " + why;
+    }
+    return volume.fcl->version + ": BVHModel of OBBRSS against an octree of opaque voxels" +
+           (cells->resampled
+                ? ", which are no cubes: cells of the smallest spacing, each with the value of the voxel at "
+                  "its centre"
+                : "");
 }
 
 } // namespace voxtact::lab

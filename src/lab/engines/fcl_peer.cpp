@@ -16,11 +16,6 @@
 
 namespace voxtact::lab {
 
-struct FclVolume {
-    std::shared_ptr<const octomap::OcTree> tree;
-    FclMatrix world_from_tree{};
-};
-
 namespace {
 
 /// OctoMap's keys: cell 32768 begins at the origin.
@@ -41,16 +36,15 @@ template <class Scalar> fcl::Transform3<Scalar> transformOf(const FclMatrix& mat
 
 template <class Scalar> using Model = fcl::BVHModel<fcl::OBBRSS<Scalar>>;
 
-template <class Scalar>
-std::shared_ptr<Model<Scalar>> modelOf(std::span<const float> positions, std::span<const std::uint32_t> indices) {
-    const auto vertex = [positions](std::uint32_t index) {
-        const float* at = positions.data() + 3 * std::size_t{index};
+template <class Scalar> std::shared_ptr<Model<Scalar>> modelOf(const FclMesh& from) {
+    const auto vertex = [&from](std::uint32_t index) {
+        const float* at = from.positions.data() + 3 * std::size_t{index};
         return fcl::Vector3<Scalar>(static_cast<Scalar>(at[0]), static_cast<Scalar>(at[1]), static_cast<Scalar>(at[2]));
     };
     auto mesh = std::make_shared<Model<Scalar>>();
-    mesh->beginModel(static_cast<int>(indices.size() / 3));
-    for (std::size_t i = 0; i < indices.size(); i += 3) {
-        mesh->addTriangle(vertex(indices[i]), vertex(indices[i + 1]), vertex(indices[i + 2]));
+    mesh->beginModel(static_cast<int>(from.indices.size() / 3));
+    for (std::size_t i = 0; i < from.indices.size(); i += 3) {
+        mesh->addTriangle(vertex(from.indices[i]), vertex(from.indices[i + 1]), vertex(from.indices[i + 2]));
     }
     mesh->endModel();
     return mesh;
@@ -76,23 +70,44 @@ void collide(const Model<float>& mesh, const fcl::Transform3f& world_from_mesh, 
     fcl::detail::collide(&node);
 }
 
-template <class Scalar>
-FclPeer makePeer(const FclVolume& volume, std::span<const float> positions, std::span<const std::uint32_t> indices) {
-    const auto mesh = modelOf<Scalar>(positions, indices);
-    const auto octree = std::make_shared<fcl::OcTree<Scalar>>(volume.tree);
-    return [mesh, octree, matrix = volume.world_from_tree](const FclMatrix& world_from_object) {
+using Tree = std::shared_ptr<const octomap::OcTree>;
+
+template <class Scalar> FclPeer makePeer(const Tree& tree, const FclMatrix& world_from_tree, const FclMesh& of) {
+    const auto octree = std::make_shared<fcl::OcTree<Scalar>>(tree);
+    return [mesh = modelOf<Scalar>(of), octree, world_from_tree](const FclMatrix& world_from_object) {
         const fcl::CollisionRequest<Scalar> request(1, false);
         fcl::CollisionResult<Scalar> result;
-        collide(*mesh, transformOf<Scalar>(world_from_object), *octree, transformOf<Scalar>(matrix), request, result);
+        collide(*mesh, transformOf<Scalar>(world_from_object), *octree, transformOf<Scalar>(world_from_tree), request,
+                result);
         return result.isCollision();
     };
 }
 
-} // namespace
-
-std::string fclVersion() {
-    return std::string("FCL ") + FCL_VERSION;
+FclDistance makeDistance(const Tree& tree, const FclMatrix& world_from_tree, const FclMesh& of) {
+    const auto octree = std::make_shared<fcl::OcTreed>(tree);
+    return [mesh = modelOf<double>(of), octree, world_from_tree](const FclMatrix& world_from_object) {
+        const fcl::DistanceRequestd request;
+        fcl::DistanceResultd result;
+        return fcl::distance(mesh.get(), transformOf<double>(world_from_object), octree.get(),
+                             transformOf<double>(world_from_tree), request, result);
+    };
 }
+
+FclMotion makeMotion(const Tree& tree, const FclMatrix& world_from_tree, const FclMesh& of) {
+    const auto octree = std::make_shared<fcl::OcTreed>(tree);
+    return [mesh = modelOf<double>(of), octree, still = transformOf<double>(world_from_tree)](
+               const FclMatrix& from, const FclMatrix& to, FclOnTheWay how, unsigned poses) {
+        const fcl::CCDSolverType solver =
+            how == FclOnTheWay::Poses ? fcl::CCDC_NAIVE : fcl::CCDC_CONSERVATIVE_ADVANCEMENT;
+        const fcl::ContinuousCollisionRequestd request(poses, 1e-6, fcl::CCDM_SCREW, fcl::GST_LIBCCD, solver);
+        fcl::ContinuousCollisionResultd result;
+        const double at = fcl::continuousCollide(mesh.get(), transformOf<double>(from), transformOf<double>(to),
+                                                 octree.get(), still, still, request, result);
+        return at < 0 || result.is_collide ? at : 1.0;
+    };
+}
+
+} // namespace
 
 std::shared_ptr<const FclVolume> makeFclVolume(const FclCells& cells, std::string& why) {
     std::array<std::uint32_t, 3> first{};
@@ -119,42 +134,16 @@ std::shared_ptr<const FclVolume> makeFclVolume(const FclCells& cells, std::strin
     }
     tree->updateInnerOccupancy();
     tree->prune();
-    return std::make_shared<const FclVolume>(FclVolume{std::move(tree), cells.world_from_tree});
-}
-
-FclPeer makeFclPeer(const FclVolume& volume, std::span<const float> positions, std::span<const std::uint32_t> indices,
-                    FclScalar scalar) {
-    return scalar == FclScalar::Float ? makePeer<float>(volume, positions, indices)
-                                      : makePeer<double>(volume, positions, indices);
-}
-
-FclDistance makeFclDistance(const FclVolume& volume, std::span<const float> positions,
-                            std::span<const std::uint32_t> indices) {
-    const auto mesh = modelOf<double>(positions, indices);
-    const auto octree = std::make_shared<fcl::OcTreed>(volume.tree);
-    return [mesh, octree, matrix = volume.world_from_tree](const FclMatrix& world_from_object) {
-        const fcl::DistanceRequestd request;
-        fcl::DistanceResultd result;
-        return fcl::distance(mesh.get(), transformOf<double>(world_from_object), octree.get(),
-                             transformOf<double>(matrix), request, result);
+    const auto with = [tree = Tree(std::move(tree)), at = cells.world_from_tree](auto make) {
+        return [tree, at, make](const FclMesh& mesh) { return make(tree, at, mesh); };
     };
-}
-
-FclMotion makeFclMotion(const FclVolume& volume, std::span<const float> positions,
-                        std::span<const std::uint32_t> indices) {
-    const auto mesh = modelOf<double>(positions, indices);
-    const auto octree = std::make_shared<fcl::OcTreed>(volume.tree);
-    return [mesh, octree, matrix = volume.world_from_tree](const FclMatrix& from, const FclMatrix& to, FclOnTheWay how,
-                                                           unsigned poses) {
-        const fcl::CCDSolverType solver =
-            how == FclOnTheWay::Poses ? fcl::CCDC_NAIVE : fcl::CCDC_CONSERVATIVE_ADVANCEMENT;
-        const fcl::ContinuousCollisionRequestd request(poses, 1e-6, fcl::CCDM_SCREW, fcl::GST_LIBCCD, solver);
-        fcl::ContinuousCollisionResultd result;
-        const fcl::Transform3d still = transformOf<double>(matrix);
-        const double at = fcl::continuousCollide(mesh.get(), transformOf<double>(from), transformOf<double>(to),
-                                                 octree.get(), still, still, request, result);
-        return at < 0 || result.is_collide ? at : 1.0;
-    };
+    return std::make_shared<const FclVolume>(
+        FclVolume{.version = std::string("FCL ") + FCL_VERSION,
+                  .peer = [one = with(makePeer<float>), two = with(makePeer<double>)](
+                              const FclMesh& mesh,
+                              FclScalar scalar) { return scalar == FclScalar::Float ? one(mesh) : two(mesh); },
+                  .distance = with(makeDistance),
+                  .motion = with(makeMotion)});
 }
 
 } // namespace voxtact::lab

@@ -26,37 +26,36 @@ struct FclCells {
     FclMatrix world_from_tree{};
 };
 
-/// "FCL 0.7.0", or nothing where it is not built in.
-[[nodiscard]] std::string fclVersion();
-
 enum class FclScalar { Float, Double };
-
-/// Whether a mesh (BVHModel of OBBRSS) collides with an octree at a rigid pose. One thread.
-using FclPeer = std::function<bool(const FclMatrix& world_from_object)>;
-
-/// The octree, which peers share. Null, with the reason in `why`, where FCL is not built in, and beyond the 65,536
-/// cells a side that OctoMap has keys for.
-struct FclVolume;
-[[nodiscard]] std::shared_ptr<const FclVolume> makeFclVolume(const FclCells& cells, std::string& why);
-/// Three numbers a vertex, three vertices a triangle.
-[[nodiscard]] FclPeer makeFclPeer(const FclVolume& volume, std::span<const float> positions,
-                                  std::span<const std::uint32_t> indices, FclScalar scalar);
-
-/// The distance of the two as FCL has it: -1 where they collide.
-using FclDistance = std::function<double(const FclMatrix& world_from_object)>;
-/// In double; the mesh as for makeFclPeer().
-[[nodiscard]] FclDistance makeFclDistance(const FclVolume& volume, std::span<const float> positions,
-                                          std::span<const std::uint32_t> indices);
 
 /// How FCL looks for the first contact on the way.
 enum class FclOnTheWay {
     Poses,   ///< at so many poses, the first and the last among them: CCDC_NAIVE
     Advance, ///< conservative advancement; -1 where it is not offered
 };
-/// The parameter of the first contact on the screw motion from one pose to another, 1 where there is none.
+
+/// Three numbers a vertex, three vertices a triangle. What is made of one needs it no longer.
+struct FclMesh {
+    std::span<const float> positions;
+    std::span<const std::uint32_t> indices;
+};
+
+/// Whether a mesh (BVHModel of OBBRSS) collides with an octree at a rigid pose. One thread.
+using FclPeer = std::function<bool(const FclMatrix& world_from_object)>;
+/// The distance of the two as FCL has it, in double: -1 where they collide.
+using FclDistance = std::function<double(const FclMatrix& world_from_object)>;
+/// The parameter of the first contact on the screw motion from one pose to another, in double; 1 where there is none.
 using FclMotion = std::function<double(const FclMatrix& from, const FclMatrix& to, FclOnTheWay how, unsigned poses)>;
-/// In double; the mesh as for makeFclPeer().
-[[nodiscard]] FclMotion makeFclMotion(const FclVolume& volume, std::span<const float> positions,
-                                      std::span<const std::uint32_t> indices);
+
+/// An octree, which what is made of it shares.
+struct FclVolume {
+    std::string version; ///< "FCL 0.7.0"
+    std::function<FclPeer(const FclMesh& mesh, FclScalar scalar)> peer;
+    std::function<FclDistance(const FclMesh& mesh)> distance;
+    std::function<FclMotion(const FclMesh& mesh)> motion;
+};
+/// Null, with the reason in `why`, where FCL is not built in, and beyond the 65,536 cells a side that OctoMap has keys
+/// for.
+[[nodiscard]] std::shared_ptr<const FclVolume> makeFclVolume(const FclCells& cells, std::string& why);
 
 } // namespace voxtact::lab

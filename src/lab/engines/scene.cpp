@@ -3,19 +3,12 @@
 
 #include "core/base/refuse.h"
 #include "core/base/text.h"
-#include "core/base/try.h"
 
 #include <algorithm>
 
 namespace voxtact::lab {
 
 namespace {
-
-template <class Part> Result<void> put(Result<Part> made, std::optional<Part>& place) {
-    VOXTACT_TRY(made);
-    place.emplace(std::move(*made));
-    return {};
-}
 
 Result<void> uploadTable(const device::Session& session, VolumePart& volume) {
     return put(TransferFunction::upload(session.context, session.device.queueAccess(), volume.transferFunction()),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/base/try.h"
 #include "lab/engines/fcl_peer.h"
 #include "lab/measure/machine.h"
 #include "voxtact/cpu.h"
@@ -14,6 +15,13 @@
 #include <vector>
 
 namespace voxtact::lab {
+
+/// Where a part belongs that was made, if it was.
+template <class Part> [[nodiscard]] Result<void> put(Result<Part> made, std::optional<Part>& place) {
+    VOXTACT_TRY(made);
+    place.emplace(std::move(*made));
+    return {};
+}
 
 /// How the data that options name get here: a path, or builtin:NAME.
 struct Loaders {
