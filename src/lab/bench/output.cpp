@@ -128,9 +128,7 @@ std::vector<std::string> besideFcl(const BenchResult& result) {
 
 /// "compute, polled", "cpu on 2 threads"
 std::string engineText(const EngineFacts& engine) {
-    return engine.name + (engine.threads > 0
-                              ? " on " + std::to_string(engine.threads) + (engine.threads == 1 ? " thread" : " threads")
-                              : ", " + engine.awaited);
+    return engine.name + (engine.threads > 0 ? " on " + counted(engine.threads, "thread") : ", " + engine.awaited);
 }
 
 /// "compute, polled: p50 80.1 us, p99 120 us (500 ticks, 258 of them touch)"

@@ -65,34 +65,4 @@ struct PoseTruth {
 /// A certified answer must be the host's; those of a rasteriser must be each other's, and near the host's in the view.
 [[nodiscard]] std::string judgePose(const EngineFacts& engine, const PairAnswer& answer, PoseTruth& truth);
 
-/// Poses of a mesh with what must be answered there, which is asked for as far as it is needed.
-class KnownPoses {
-  public:
-    /// What must be answered is what `certified` and `view` say, two engines of the host.
-    KnownPoses(const BenchRun& run, std::vector<Mat4> poses, const Engine& certified, const Engine& view)
-        : run_(run), poses_(std::move(poses)), certified_(certified), view_(view) {}
-
-    [[nodiscard]] std::size_t size() const noexcept { return poses_.size(); }
-    /// Up to a pose.
-    [[nodiscard]] Result<void> learn(std::size_t end);
-    /// ms that the last ones took.
-    [[nodiscard]] double learning() const noexcept { return learning_; }
-    /// One sample of an engine: as many pairs as its row has, from pose `first` on. Its answers are held against what
-    /// must be answered, and what is wrong is the result's disagreement. Returns the sample's ms; its times and what it
-    /// found are in the row if it is `kept`.
-    [[nodiscard]] Result<double> take(const Engine& engine, std::size_t first, bool kept, BenchRow& row);
-
-  private:
-    [[nodiscard]] Work at(std::size_t first, std::size_t count) const {
-        return run_.work.at(std::span(poses_).subspan(first, count));
-    }
-
-    const BenchRun& run_;
-    std::vector<Mat4> poses_;
-    std::vector<PoseTruth> truths_; ///< of the first poses
-    const Engine& certified_;
-    const Engine& view_;
-    double learning_ = 0;
-};
-
 } // namespace voxtact::lab

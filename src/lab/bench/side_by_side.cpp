@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/try.h"
 #include "lab/bench/parts.h"
+#include "lab/measure/numbers.h"
 #include "lab/measure/poses.h"
 #include "lab/measure/stopwatch.h"
 
@@ -53,9 +54,8 @@ Result<Taken> takePasses(const Engine& engine, const Work& work, std::size_t pas
 std::string compareCounts(std::span<const PairAnswer> bare, std::span<const PairAnswer> answers, const BenchRow& row) {
     for (std::size_t i = 0; i < bare.size(); ++i) {
         if (bare[i].count != answers[i].count) {
-            return row.mesh + ", poses " + row.poses + ", pose " + std::to_string(i) + ": " + row.engine.name + " " +
-                   row.engine.projection + " " + row.engine.question + " counts " + std::to_string(answers[i].count) +
-                   ", without the output it is " + std::to_string(bare[i].count);
+            return concat(row.mesh, ", poses ", row.poses, ", pose ", i, ": ", row.engine.text(), " counts ",
+                          answers[i].count, ", without the output it is ", bare[i].count);
         }
     }
     return {};
@@ -134,9 +134,8 @@ std::string judgeEngine(std::span<const PairAnswer> certified, std::span<const P
         const std::uint64_t expected = row.engine.question == "yes/no" ? (truth.hit ? 1 : 0) : truth.count;
         if (row.engine.certified && disagreement.empty() &&
             (answer.hit != truth.hit || answer.possible != truth.possible || answer.count != expected)) {
-            disagreement = row.mesh + ", poses " + row.poses + ", pose " + std::to_string(i) + ": " + row.engine.name +
-                           " " + row.engine.question + " says " + std::to_string(answer.count) + ", it must be " +
-                           std::to_string(expected);
+            disagreement = concat(row.mesh, ", poses ", row.poses, ", pose ", i, ": ", row.engine.name, " ",
+                                  row.engine.question, " says ", answer.count, ", it must be ", expected);
         }
     }
     return disagreement;

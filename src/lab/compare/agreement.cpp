@@ -15,8 +15,17 @@ bool isAny(const NamedCounts& counts) {
     return counts.method == toString(CountingMethod::QueryAny);
 }
 
-std::string countText(const NamedCounts& counts, std::size_t at) {
-    return counts.method + " " + std::to_string(counts.counts[at]);
+/// "query 812, atomic 811"
+std::string countText(std::span<const NamedCounts> group, std::size_t at) {
+    std::string text;
+    for (const NamedCounts& by : group) {
+        text += concat(text.empty() ? "" : ", ", by.method, " ", by.counts[at]);
+    }
+    return text;
+}
+
+std::uint64_t difference(std::uint64_t a, std::uint64_t b) {
+    return std::max(a, b) - std::min(a, b);
 }
 
 /// Of methods that must all count the same.
@@ -44,17 +53,15 @@ void comparePoses(std::span<const std::uint32_t> poses, Verdict& verdict, Apart 
 
 std::string fragmentText(const DifferingFragment& differing) {
     const oracle::OracleFragment& fragment = differing.fragment;
-    return "the fragment of triangle " + std::to_string(fragment.triangle) + " at pixel " + std::to_string(fragment.x) +
-           "," + std::to_string(fragment.y) +
-           (differing.onDevice ? " is the device's, not the oracle's" : " is the oracle's, not the device's") +
-           ", and rounding is no reason";
+    return concat("the fragment of triangle ", fragment.triangle, " at pixel ", fragment.x, ",", fragment.y,
+                  differing.onDevice ? " is the device's, not the oracle's" : " is the oracle's, not the device's",
+                  ", and rounding is no reason");
 }
 
 /// The first rule that a pose breaks.
 std::optional<std::string> faultOf(const FragmentCheck& check) {
     if (check.counted && *check.counted != check.onDevice) {
-        return "the device lists " + std::to_string(check.onDevice) + " fragments and counts " +
-               std::to_string(*check.counted);
+        return concat("the device lists ", check.onDevice, " fragments and counts ", *check.counted);
     }
     const auto fault = std::ranges::find(check.differing, oracle::Doubt::None, &DifferingFragment::doubt);
     return fault == check.differing.end() ? std::nullopt : std::optional(fragmentText(*fault));
@@ -76,7 +83,7 @@ Verdict judgeGroup(std::span<const NamedCounts> run, Coverage coverage, std::spa
 } // namespace
 
 std::string disagreementOf(const Verdict& verdict) {
-    return verdict.rule + ": disagreement on pose " + std::to_string(verdict.first->pose) + ": " + verdict.first->text;
+    return concat(verdict.rule, ": disagreement on pose ", verdict.first->pose, ": ", verdict.first->text);
 }
 
 std::vector<NamedCounts> countsBy(std::span<const NamedCounts> counts, Coverage coverage) {
@@ -129,12 +136,7 @@ Verdict judgeEqual(std::span<const NamedCounts> group, std::span<const std::uint
             std::ranges::minmax_element(group, {}, [i](const NamedCounts& one) { return one.counts[i]; });
         return most->counts[i] - least->counts[i];
     };
-    comparePoses(poses, verdict, apart, [group](std::size_t i) {
-        std::vector<std::string> counts;
-        std::ranges::transform(group, std::back_inserter(counts),
-                               [i](const NamedCounts& one) { return countText(one, i); });
-        return joined(counts, ", ");
-    });
+    comparePoses(poses, verdict, apart, [group](std::size_t i) { return countText(group, i); });
     return verdict;
 }
 
@@ -143,7 +145,9 @@ Verdict judgeHits(const NamedCounts& any, const NamedCounts& exact, std::span<co
     const auto hits = [](const NamedCounts& by, std::size_t i) { return by.counts[i] != 0; };
     comparePoses(
         poses, verdict, [&](std::size_t i) { return std::uint64_t{hits(any, i) == hits(exact, i) ? 0U : 1U}; },
-        [&](std::size_t i) { return any.method + (hits(any, i) ? " hits, " : " misses, ") + countText(exact, i); });
+        [&](std::size_t i) {
+            return any.method + (hits(any, i) ? " hits, " : " misses, ") + countText({&exact, 1}, i);
+        });
     verdict.largest = 0; // no difference of counts
     return verdict;
 }
@@ -152,7 +156,7 @@ bool explainedByRounding(std::uint64_t raster, std::uint64_t host, bool yesNo) n
     if (yesNo) {
         return (raster > 0) == (host > 0) || host <= kRoundedFragments;
     }
-    return std::max(raster, host) - std::min(raster, host) <= host / 2 + kRoundedFragments;
+    return difference(raster, host) <= host / 2 + kRoundedFragments;
 }
 
 std::string roundingRule(const std::string& raster, const std::string& host, bool yesNo) {
@@ -165,12 +169,12 @@ std::string roundingRule(const std::string& raster, const std::string& host, boo
 Verdict judgeRounding(const NamedCounts& raster, const NamedCounts& host, std::span<const std::uint32_t> poses) {
     const bool yesNo = isAny(raster);
     Verdict verdict{.rule = roundingRule(raster.method, host.method, yesNo), .byRule = true};
+    const NamedCounts both[] = {raster, host};
     const auto apart = [&](std::size_t i) -> std::uint64_t {
-        const auto [least, most] = std::minmax(raster.counts[i], host.counts[i]);
-        return explainedByRounding(raster.counts[i], host.counts[i], yesNo) ? 0 : most - least;
+        const bool explained = explainedByRounding(raster.counts[i], host.counts[i], yesNo);
+        return explained ? 0 : difference(raster.counts[i], host.counts[i]);
     };
-    comparePoses(poses, verdict, apart,
-                 [&](std::size_t i) { return countText(raster, i) + ", " + countText(host, i); });
+    comparePoses(poses, verdict, apart, [&](std::size_t i) { return countText(both, i); });
     return verdict;
 }
 
@@ -180,12 +184,12 @@ Verdict tellDifference(const NamedCounts& one, const NamedCounts& other, std::sp
     std::uint64_t all = 0;
     std::uint64_t sum = 0;
     const auto apart = [&](std::size_t i) {
-        const auto [least, most] = std::minmax(one.counts[i], other.counts[i]);
         all += other.counts[i];
-        sum += most - least;
-        return most - least;
+        sum += difference(one.counts[i], other.counts[i]);
+        return difference(one.counts[i], other.counts[i]);
     };
-    comparePoses(poses, verdict, apart, [&](std::size_t i) { return countText(one, i) + ", " + countText(other, i); });
+    const NamedCounts both[] = {one, other};
+    comparePoses(poses, verdict, apart, [&](std::size_t i) { return countText(both, i); });
     verdict.detail = grouped(sum) + " of " + grouped(all) + " fragments apart in all";
     return verdict;
 }
@@ -215,12 +219,11 @@ Verdict judgeFragments(std::span<const FragmentCheck> checks) {
     std::vector<std::string> reasons;
     for (const oracle::Doubt doubt : kDoubts) {
         if (const std::uint64_t count = countOf(doubt, checks); count > 0) {
-            reasons.push_back(std::to_string(count) + " by " +
-                              (doubt == oracle::Doubt::None ? "nothing that explains them" : toString(doubt)));
+            reasons.push_back(
+                concat(count, " by ", doubt == oracle::Doubt::None ? "nothing that explains them" : toString(doubt)));
         }
     }
-    verdict.detail = "on " + std::to_string(checks.size()) + (checks.size() == 1 ? " pose" : " poses") +
-                     (reasons.empty() ? "" : ": ") + joined(reasons, ", ");
+    verdict.detail = "on " + counted(checks.size(), "pose") + (reasons.empty() ? "" : ": ") + joined(reasons, ", ");
     return verdict;
 }
 

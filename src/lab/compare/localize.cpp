@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "lab/compare/localize.h"
 
+#include "core/base/text_stream.h"
 #include "core/base/try.h"
+#include "lab/compare/output.h"
 #include "lab/measure/numbers.h"
 #include "lab/measure/rounds.h"
 
 #include <algorithm>
+#include <iomanip>
 #include <iterator>
 
 namespace voxtact::lab {
 
 namespace {
 
-bool before(const TouchedTriangle& a, const TouchedTriangle& b) {
-    return a.triangle < b.triangle;
-}
+constexpr auto kTriangle = &TouchedTriangle::triangle;
 
 /// The ways, as many as there are in LocalizeResult::ways; one that cannot be had does not run. The last is certified.
 Result<Engines> makeWays(const device::Session& session, const Scene& scene, LocalizeResult& result) {
@@ -105,8 +106,8 @@ Result<void> findAll(const Engines& engines, const CompareSettings& settings, co
         takeRounds({&round, 1}, {.repeats = settings.repeats, .limit = settings.timeLimit * 1000});
     VOXTACT_TRY(rounds);
     if (*rounds < settings.repeats) {
-        result.notes.push_back(std::to_string(*rounds) + " of " + std::to_string(settings.repeats) +
-                               " rounds of which triangles touch: more would not fit in the time for them");
+        result.notes.push_back(concat(*rounds, " of ", settings.repeats,
+                                      " rounds of which triangles touch: more would not fit in the time for them"));
     }
     return {};
 }
@@ -117,7 +118,7 @@ Result<void> listWrong(const Engine& certified, const Scene& scene, LocalizeResu
     for (std::size_t pose = 0; pose < scene.poses.size(); ++pose) {
         std::vector<TouchedTriangle> extra;
         std::ranges::set_difference(result.ways.front().found[pose], result.ways.back().found[pose],
-                                    std::back_inserter(extra), before);
+                                    std::back_inserter(extra), {}, kTriangle, kTriangle);
         for (const TouchedTriangle& triangle : extra) {
             Result<std::string> known = certifiedOf(certified, work.at(work.poses.subspan(pose, 1)), triangle.triangle);
             VOXTACT_TRY(known);
@@ -133,16 +134,17 @@ void holdAgainstCertified(LocalizeResult& result) {
     for (LocalizeWay& way : result.ways) {
         for (std::size_t pose = 0; pose < way.found.size(); ++pose) {
             std::vector<TouchedTriangle> both;
-            std::ranges::set_intersection(certified.found[pose], way.found[pose], std::back_inserter(both), before);
+            std::ranges::set_intersection(certified.found[pose], way.found[pose], std::back_inserter(both), {},
+                                          kTriangle, kTriangle);
             way.missed += certified.found[pose].size() - both.size();
             way.wrong += way.found[pose].size() - both.size();
         }
     }
 }
 
-std::string textOf(const std::vector<TouchedTriangle>& found, std::uint32_t triangle) {
-    const auto at = std::ranges::lower_bound(found, triangle, {}, &TouchedTriangle::triangle);
-    return std::to_string(at == found.end() || at->triangle != triangle ? 0 : at->count);
+std::uint32_t countIn(const std::vector<TouchedTriangle>& found, std::uint32_t triangle) {
+    const auto at = std::ranges::find(found, triangle, &TouchedTriangle::triangle);
+    return at == found.end() ? 0 : at->count;
 }
 
 /// The first pose and triangle on which a way of the view has other fragments than the first of them.
@@ -154,22 +156,60 @@ void findDisagreement(LocalizeResult& result) {
                 continue;
             }
             std::vector<TouchedTriangle> apart;
-            std::ranges::set_symmetric_difference(first.found[pose], way.found[pose], std::back_inserter(apart),
-                                                  [](const TouchedTriangle& a, const TouchedTriangle& b) {
-                                                      return std::pair(a.triangle, a.count) <
-                                                             std::pair(b.triangle, b.count);
-                                                  });
+            const auto key = [](const TouchedTriangle& one) { return std::pair(one.triangle, one.count); };
+            std::ranges::set_symmetric_difference(first.found[pose], way.found[pose], std::back_inserter(apart), {},
+                                                  key, key);
             if (apart.empty()) {
                 continue;
             }
             const std::uint32_t triangle = apart.front().triangle;
             result.verdict.first = {result.poseNumbers[pose],
-                                    "triangle " + std::to_string(triangle) + ": " + first.name + " " +
-                                        textOf(first.found[pose], triangle) + ", " + way.name + " " +
-                                        textOf(way.found[pose], triangle) + " fragments"};
+                                    concat("triangle ", triangle, ": ", first.name, " ",
+                                           countIn(first.found[pose], triangle), ", ", way.name, " ",
+                                           countIn(way.found[pose], triangle), " fragments")};
             return;
         }
     }
+}
+
+/// JSON has the cells too, with all their names.
+io::Table waysTable(const LocalizeResult& result) {
+    return tableOf(cellsOf(result.ways, [&](const LocalizeWay& way) {
+        const auto ifRun = [&way](auto value) { return way.unchecked.empty() ? std::optional(value) : std::nullopt; };
+        return Row()
+            .add("way", way.name)
+            .add("poses", ifRun(way.found.size()))
+            .add("triangles", ifRun(way.triangles))
+            .add("missed", ifRun(way.missed))
+            .add("missed_percent",
+                 way.unchecked.empty() ? percentOf(way.missed, result.ways.back().triangles) : std::nullopt)
+            .add("false", ifRun(way.wrong))
+            .add("queries", way.queries)
+            .add("boxes", way.boxes)
+            .add("samples", ifRun(way.wall.size()))
+            .add("wall_ms", way.wall, {"_median", "_p10", "_p90"})
+            .add("gpu_ms", way.gpu, {"_median"});
+    }));
+}
+
+std::vector<std::string> sentences(const LocalizeResult& result) {
+    std::vector<std::string> out;
+    const Verdict& verdict = result.verdict;
+    out.push_back(verdict.rule + (verdict.failed()
+                                      ? concat(": NO, on pose ", verdict.first->pose, ": ", verdict.first->text)
+                                      : ": the same triangles with the same counts on every pose"));
+    TextStream missed;
+    missed << "the camera shows " << grouped(result.ways.front().triangles) << " touching triangles, "
+           << grouped(result.ways.back().triangles) << " certainly touch";
+    if (const auto percent = percentOf(result.ways.front().missed, result.ways.back().triangles)) {
+        missed << ": " << std::fixed << std::setprecision(1) << *percent << " % are missed";
+    }
+    out.push_back(missed.str());
+    for (const WrongTriangle& wrong : result.wrong) {
+        out.push_back(concat("found and not certified: pose ", wrong.pose, ", triangle ", wrong.triangle, ", ",
+                             wrong.fragments, " fragments; by bounds: ", wrong.certified));
+    }
+    return out;
 }
 
 } // namespace
@@ -192,6 +232,30 @@ Result<void> localize(const device::Session& session, const CompareSettings& set
     }
     noteMissedTimes(session, result.notes);
     return listWrong(engines->back(), scene, result);
+}
+
+void writeLocalize(std::ostream& out, io::Format format, const Scene& scene, const LocalizeResult& result) {
+    Output output{.machine = result.machine,
+                  .members = {},
+                  .table = waysTable(result),
+                  .sentences = sentences(result),
+                  .notes = result.notes};
+    if (result.ways.back().triangles == 0) {
+        output.notes.emplace_back(kNothingTouches);
+    }
+    Json& json = output.members;
+    json["scene"] = sceneJson(scene);
+    json["summary"] = output.sentences;
+    json["agrees"] = !result.verdict.failed();
+    json["poses"] = result.poseNumbers;
+    json["ways"] = io::rowsJson(output.table);
+    json["not_certified"] = arrayOf(result.wrong, [](const WrongTriangle& wrong) {
+        return Json{{"pose", wrong.pose},
+                    {"triangle", wrong.triangle},
+                    {"fragments", wrong.fragments},
+                    {"certified", wrong.certified}};
+    });
+    writeOutput(out, format, output);
 }
 
 } // namespace voxtact::lab

@@ -2,6 +2,7 @@
 #include "lab/compare/output.h"
 
 #include <cmath>
+#include <cstdio>
 
 namespace voxtact::lab {
 
@@ -64,6 +65,47 @@ Json oracleJson(const CompareResult& result) {
     return json;
 }
 
+std::string plural(std::uint64_t count, const std::string& unit) {
+    const bool one = count == 1 && unit.ends_with('s');
+    return grouped(count) + " " + (one ? unit.substr(0, unit.size() - 1) : unit);
+}
+
+/// Three significant digits.
+std::string milliseconds(double value) {
+    char text[32];
+    static_cast<void>(std::snprintf(text, sizeof text,
+                                    value < 1     ? "%.3f ms"
+                                    : value < 100 ? "%.3g ms"
+                                                  : "%.0f ms",
+                                    value));
+    return text;
+}
+
+std::string sentenceOf(const Verdict& verdict) {
+    if (!verdict.unchecked.empty()) {
+        return verdict.members + ": not checked, " + verdict.unchecked;
+    }
+    if (verdict.failed()) {
+        return concat("DISAGREEMENT: ", verdict.rule, ": pose ", verdict.first->pose, ": ", verdict.first->text);
+    }
+    if (verdict.unit == "fragments") {
+        return "of " + plural(verdict.compared, "fragments") + " that the device's rasteriser or the oracle has, " +
+               grouped(verdict.differing) + " are of one side only" +
+               (verdict.differing > 0 ? ", each within rounding of a decision" : "") + " (" + verdict.detail + ")";
+    }
+    const std::string where = (verdict.compared == 1 ? "the one pose" : "all " + plural(verdict.compared, "poses"));
+    if (verdict.differing == 0) {
+        return verdict.byRule ? verdict.rule + ", on " + where : verdict.members + " count the same on " + where;
+    }
+    return verdict.members + " differ on " + grouped(verdict.differing) + " of " + plural(verdict.compared, "poses") +
+           ", by at most " + plural(verdict.largest, "fragments") + " (" + verdict.detail + ")";
+}
+
+std::string speedOf(const Series& series, const std::string& what) {
+    return "fastest " + what + ": " + series.method + " (" + milliseconds(medianOf(series.wall)) + ", " +
+           grouped(static_cast<std::uint64_t>(std::llround(*series.pairsPerSecond()))) + " pairs a second)";
+}
+
 } // namespace
 
 Json methodJson(const MethodEntry& method) {
@@ -115,6 +157,23 @@ Json sceneJson(const Scene& scene) {
             {"opacity", opacityText(scene.volume->points)},
             {"tf_domain", {scene.volume->domain.lo, scene.volume->domain.hi}},
             {"tf_size", scene.volume->tableSize}};
+}
+
+std::vector<std::string> summarize(const CompareResult& result) {
+    std::vector<std::string> sentences;
+    for (const Verdict& verdict : result.verdicts) {
+        sentences.push_back(sentenceOf(verdict));
+    }
+    const auto addFastest = [&](Mode mode, std::uint32_t batch, const char* what) {
+        const Series* const best = fastestOf(
+            result.series, [&](const Series& series) { return series.mode == mode && series.batch == batch; });
+        if (best != nullptr) {
+            sentences.push_back(speedOf(*best, what));
+        }
+    };
+    addFastest(Mode::Sync, 1, "for 1 pair, waited for");
+    addFastest(Mode::Pipelined, 1024, "for 1,024 pairs, in flight");
+    return sentences;
 }
 
 Output compareOutput(const Scene& scene, const CompareResult& result) {

@@ -62,10 +62,9 @@ Result<double> takeSample(Point& point) {
 }
 
 std::string describe(const Series& series) {
-    return "no time of " + series.method + " for batches of " + std::to_string(series.batch) + " (" +
-           std::to_string(series.triangles) + " triangles, " + std::to_string(series.width) + "x" +
-           std::to_string(series.height) + ", " + sizeText(series.voxels) +
-           " voxels): one would take more than a quarter of the sweep's time";
+    return concat("no time of ", series.method, " for batches of ", series.batch, " (", series.triangles,
+                  " triangles, ", series.width, "x", series.height, ", ", sizeText(series.voxels),
+                  " voxels): one would take more than a quarter of the sweep's time");
 }
 
 /// Everything is made and touched once, and says how long a batch takes. One that would take longer than `most` is not
@@ -104,9 +103,9 @@ void takeSamePoses(std::span<Point> group, double most, const CompareRun& run) {
     const Series& series = group.front().series;
     if (pairs < run.scene.poses.size() && series.sweep == Sweep::Batch) {
         run.result.notes.push_back(
-            (series.mode == Mode::Sync ? "waited for: " : "in flight, batches of " + grouped(batch) + ": ") +
-            "the times of all methods are of the same " + grouped(pairs) + " of the " +
-            grouped(run.scene.poses.size()) + " poses; a longer --time-limit takes more");
+            concat(series.mode == Mode::Sync ? "waited for: " : "in flight, batches of " + grouped(batch) + ": ",
+                   "the times of all methods are of the same ", grouped(pairs), " of the ",
+                   grouped(run.scene.poses.size()), " poses; a longer --time-limit takes more"));
     }
 }
 
@@ -135,8 +134,10 @@ Result<void> measure(const CompareRun& run, std::vector<Point>& points) {
     return {};
 }
 
-/// A yes or no says nothing of how many: the fragments are those of a neighbour on the same poses.
-void shareFragments(std::vector<Point>& points) {
+/// The series of points that were measured. A yes or no says nothing of how many: its fragments are those of a
+/// neighbour on the same poses.
+std::vector<Series> seriesOf(std::vector<Point>& points) {
+    std::vector<Series> measured;
     for (Point& point : points) {
         Series& own = point.series;
         const auto found = std::ranges::find_if(points, [&own](const Point& other) {
@@ -147,18 +148,17 @@ void shareFragments(std::vector<Point>& points) {
         if (!own.fragments && found != points.end()) {
             own.fragments = found->series.fragments;
         }
-    }
-}
-
-/// The series of points that were measured, in the order of mode and batch.
-void collect(std::vector<Point>& points, CompareResult& result) {
-    shareFragments(points);
-    std::ranges::stable_sort(points, {}, [](const Point& p) { return std::pair(p.series.mode, p.series.batch); });
-    for (Point& point : points) {
-        if (!point.series.wall.empty()) {
-            result.series.push_back(std::move(point.series));
+        if (!own.wall.empty()) {
+            measured.push_back(own);
         }
     }
+    return measured;
+}
+
+/// In the order of mode and batch.
+void addSorted(std::vector<Series> measured, CompareResult& result) {
+    std::ranges::stable_sort(measured, {}, [](const Series& series) { return std::pair(series.mode, series.batch); });
+    std::ranges::move(measured, std::back_inserter(result.series));
 }
 
 /// `count` poses, again from the start where there are no more: one pose repeated would be cache-warm. In an order
@@ -202,22 +202,19 @@ Result<void> timeBatches(const CompareRun& run) {
         points.push_back(makePoint(Sweep::Batch, engine, work.at(one), Mode::Sync, 1));
     }
     VOXTACT_TRY(measure(run, points));
-    for (std::size_t i = points.size() - run.engines.size(), end = points.size(); i < end; ++i) {
-        for (std::size_t batch = 1; batch < kBatches.size(); ++batch) {
-            Point copy = points[i];
-            copy.series = scaled(points[i].series, kBatches[batch]);
-            points.push_back(std::move(copy));
+    std::vector<Series> measured = seriesOf(points);
+    for (std::size_t i = 0, end = measured.size(); i < end; ++i) {
+        for (std::size_t batch = 1; measured[i].mode == Mode::Sync && batch < kBatches.size(); ++batch) {
+            measured.push_back(scaled(measured[i], kBatches[batch]));
         }
     }
-    collect(points, run.result);
+    addSorted(std::move(measured), run.result);
     return {};
 }
 
 /// A point of the other sweeps, which all engines take.
 struct Swept {
-    std::shared_ptr<VolumePart> volume;
-    std::shared_ptr<MeshPart> mesh;
-    View view;
+    Scene scene;       ///< at the poses of all points
     std::string where; ///< says which point it is
 };
 
@@ -241,35 +238,37 @@ bool isSizable(const CompareRun& run, const std::string& source, const char* swe
     return builtin;
 }
 
-Result<std::vector<Swept>> sizedMeshes(const CompareRun& run) {
+Result<std::vector<Swept>> sizedMeshes(const CompareRun& run, const Scene& some) {
     std::vector<Swept> points;
     if (!isSizable(run, run.scene.mesh->name, "triangles", "mesh")) {
         return points;
     }
     for (const std::uint32_t triangles : kTriangles) {
-        const std::string which = std::to_string(triangles) + " triangles";
-        Result<MeshData> data = run.settings.load.mesh(resized(run.scene.mesh->name, triangles));
-        if (!data.ok()) {
-            leaveOut(run, which, data.error());
+        Swept point{some, std::to_string(triangles) + " triangles"};
+        point.scene.mesh = std::make_shared<MeshPart>();
+        const Result<void> loaded =
+            put(run.settings.load.mesh(resized(run.scene.mesh->name, triangles)), point.scene.mesh->data);
+        if (!loaded.ok()) {
+            leaveOut(run, point.where, loaded.error());
             continue;
         }
-        const auto mesh = std::make_shared<MeshPart>(MeshPart{.name = {}, .data = std::move(*data)});
-        VOXTACT_TRY(makeReady(&run.session, *mesh));
-        points.push_back({run.scene.volume, mesh, run.scene.view, which});
+        VOXTACT_TRY(makeReady(&run.session, *point.scene.mesh));
+        points.push_back(std::move(point));
     }
     return points;
 }
 
-Result<std::vector<Swept>> sizedViewports(const CompareRun& run) {
+Result<std::vector<Swept>> sizedViewports(const CompareRun& run, const Scene& some) {
     std::vector<Swept> points;
     for (const std::uint32_t side : kSides) {
-        View view = run.scene.view;
+        Swept point{some, {}};
+        View& view = point.scene.view;
+        view.height =
+            static_cast<std::uint32_t>(std::max(1L, std::lround(static_cast<double>(side) * view.height / view.width)));
         view.width = side;
-        view.height = static_cast<std::uint32_t>(
-            std::max(1L, std::lround(static_cast<double>(side) * run.scene.view.height / run.scene.view.width)));
+        point.where = concat("--size ", view.width, "x", view.height);
         if (checkViewport(run.session, {view.width, view.height}).ok()) {
-            points.push_back({run.scene.volume, run.scene.mesh, view,
-                              "--size " + std::to_string(view.width) + "x" + std::to_string(view.height)});
+            points.push_back(std::move(point));
         }
     }
     return points;
@@ -302,31 +301,30 @@ Result<std::shared_ptr<VolumePart>> sizedVolume(const CompareRun& run, std::uint
     return sized;
 }
 
-Result<std::vector<Swept>> sizedVolumes(const CompareRun& run) {
+Result<std::vector<Swept>> sizedVolumes(const CompareRun& run, const Scene& some) {
     std::vector<Swept> points;
     if (!isSizable(run, run.scene.volume->name, "voxels", "volume")) {
         return points;
     }
     for (const std::uint32_t quarters : kQuarters) {
-        const Result<std::shared_ptr<VolumePart>> sized =
-            sizedVolume(run, run.scene.volume->data.grid.size[0] * quarters / 4);
-        VOXTACT_TRY(sized);
+        Swept point{some, {}};
+        VOXTACT_TRY(put(sizedVolume(run, run.scene.volume->data.grid.size[0] * quarters / 4), point.scene.volume));
         run.step();
-        if (*sized != nullptr) {
-            points.push_back({*sized, run.scene.mesh, run.scene.view, sizeText((*sized)->data.grid.size) + " voxels"});
+        if (point.scene.volume != nullptr) {
+            point.where = sizeText(point.scene.volume->data.grid.size) + " voxels";
+            points.push_back(std::move(point));
         }
     }
     return points;
 }
 
 /// The counts of a point agree before it is timed: adds the verdicts that failed.
-Result<void> verify(const CompareRun& run, Sweep sweep, const Work& work, std::span<const std::uint32_t> poses,
-                    const std::string& where) {
-    const Result<std::vector<NamedCounts>> counts = countAll(run.engines, work);
+Result<void> verify(const CompareRun& run, Sweep sweep, const Swept& point) {
+    const Result<std::vector<NamedCounts>> counts = countAll(run.engines, Work(point.scene));
     VOXTACT_TRY(counts);
-    for (Verdict& verdict : judgeCounts(*counts, poses)) {
+    for (Verdict& verdict : judgeCounts(*counts, point.scene.poseNumbers)) {
         if (verdict.failed()) {
-            verdict.rule += " (" + where + ")";
+            verdict.rule += " (" + point.where + ")";
             verdict.sweep = toString(sweep);
             run.result.verdicts.push_back(std::move(verdict));
         }
@@ -336,21 +334,19 @@ Result<void> verify(const CompareRun& run, Sweep sweep, const Work& work, std::s
 
 /// Verifies all points, and times them.
 Result<void> timeSwept(const CompareRun& run, Sweep sweep, const std::vector<Swept>& swept) {
-    const Scene some = run.scene.withPoses(kSweepPairs);
-    const auto pairs = static_cast<std::uint32_t>(some.poses.size());
     std::vector<Point> points;
     for (const Swept& one : swept) {
-        const Work work{*one.volume, *one.mesh, some.poses, one.view};
-        VOXTACT_TRY(verify(run, sweep, work, some.poseNumbers, one.where));
+        VOXTACT_TRY(verify(run, sweep, one));
         for (const Engine& engine : run.engines) {
-            points.push_back(makePoint(sweep, engine, work, Mode::Pipelined, pairs));
+            points.push_back(makePoint(sweep, engine, Work(one.scene), Mode::Pipelined,
+                                       static_cast<std::uint32_t>(one.scene.poses.size())));
         }
     }
     if (points.empty() || run.ended()) {
         return {};
     }
     VOXTACT_TRY(measure(run, points));
-    collect(points, run.result);
+    addSorted(seriesOf(points), run.result);
     return {};
 }
 
@@ -379,9 +375,10 @@ Result<void> timeSweep(const CompareRun& run, Sweep sweep) {
     if (sweep == Sweep::Batch) {
         return timeBatches(run);
     }
-    const Result<std::vector<Swept>> points = sweep == Sweep::Triangles   ? sizedMeshes(run)
-                                              : sweep == Sweep::Fragments ? sizedViewports(run)
-                                                                          : sizedVolumes(run);
+    const Scene some = run.scene.withPoses(kSweepPairs);
+    const Result<std::vector<Swept>> points = sweep == Sweep::Triangles   ? sizedMeshes(run, some)
+                                              : sweep == Sweep::Fragments ? sizedViewports(run, some)
+                                                                          : sizedVolumes(run, some);
     VOXTACT_TRY(points);
     return timeSwept(run, sweep, *points);
 }

@@ -16,6 +16,10 @@ struct EngineFacts {
     std::string recorded{};    ///< of a submission a pose: "each tick", "once"; empty: nothing is
     std::string awaited{};     ///< of one: "polled", "waited"
     std::string posesOn{};     ///< of a batch on the device: "host", "device"
+
+    [[nodiscard]] bool operator==(const EngineFacts&) const = default;
+    /// "compute conservative count"
+    [[nodiscard]] std::string text() const { return name + " " + projection + " " + question; }
 };
 
 /// Pairs to answer: a mesh at poses against a volume. The parts must be ready

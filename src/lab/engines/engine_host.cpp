@@ -64,9 +64,8 @@ MethodSpeed measureHost(const MeasureScene& scene, std::uint32_t repetitions) {
         speed.verdict.text = seconds.error().text;
         return speed;
     }
-    const std::uint32_t threads = host->facts.threads;
     speed.verdict.trusted = true;
-    speed.verdict.text = "the host, " + std::to_string(threads) + (threads == 1 ? " thread" : " threads");
+    speed.verdict.text = "the host, " + counted(host->facts.threads, "thread");
     speed.pairsPerSecond = static_cast<double>(scene.world_from_object.size()) / *seconds;
     return speed;
 }

@@ -7,6 +7,7 @@
 #include "voxtact/cpu.h"
 #include "voxtact/detector.h"
 
+#include <concepts>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -16,10 +17,14 @@
 
 namespace voxtact::lab {
 
-/// Where a part belongs that was made, if it was.
-template <class Part> [[nodiscard]] Result<void> put(Result<Part> made, std::optional<Part>& place) {
+/// Puts what was made, if it was, where it belongs: in a Part, or an optional one.
+template <class Part, class Place> [[nodiscard]] Result<void> put(Result<Part> made, Place& place) {
     VOXTACT_TRY(made);
-    place.emplace(std::move(*made));
+    if constexpr (std::same_as<Place, Part>) {
+        place = std::move(*made);
+    } else {
+        place.emplace(std::move(*made));
+    }
     return {};
 }
 

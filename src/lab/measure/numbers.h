@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -57,6 +58,23 @@ inline constexpr const char* kNothingTouches = "nothing touches on any pose: tha
 [[nodiscard]] std::string grouped(std::uint64_t value);
 /// "181x217x181"
 [[nodiscard]] std::string sizeText(const std::array<std::uint32_t, 3>& voxels);
+/// One text of several pieces: texts, and whole numbers.
+template <class... Pieces> [[nodiscard]] std::string concat(const Pieces&... pieces) {
+    std::string all;
+    const auto add = [&all](const auto& piece) {
+        if constexpr (std::integral<std::remove_cvref_t<decltype(piece)>>) {
+            all += std::to_string(piece);
+        } else {
+            all += piece;
+        }
+    };
+    (add(pieces), ...);
+    return all;
+}
+/// "1 thread", "2 threads"
+[[nodiscard]] inline std::string counted(std::uint64_t count, const char* unit) {
+    return concat(count, " ", unit, count == 1 ? "" : "s");
+}
 /// With something between each two.
 [[nodiscard]] std::string joined(const std::vector<std::string>& texts, const char* between);
 /// "a, b and c"

@@ -51,8 +51,4 @@ struct PaperInput {
 [[nodiscard]] Result<void> runPaperSweeps(const PaperRun& run, double seconds, const Scene& v1s1);
 [[nodiscard]] std::uint64_t paperSweepSteps(const PaperSettings& settings);
 
-/// The making of the pre-integrated table, in several sizes: a warm-up, then rounds that make each size once, every
-/// time of a function that has changed. `step` is called once for the warm-up and once a round.
-[[nodiscard]] Result<std::vector<IntegrationPoint>> timeIntegration(const PaperRun& run);
-
 } // namespace voxtact::lab
