@@ -2,7 +2,6 @@
 // A lost device is remembered: every later call that reaches it says so.
 #include "gpu/scene_impl.h"
 #include "lab/engines/localize.h"
-#include "lab/engines/trace.h"
 #include "pretend_driver.h"
 #include "scenarios.h"
 #include "sweep.h"

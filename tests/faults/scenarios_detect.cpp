@@ -3,7 +3,6 @@
 // self-test and the measuring.
 #include "detect/self_test.h"
 #include "lab/engines/localize.h"
-#include "lab/engines/trace.h"
 #include "scenarios.h"
 
 #include <sstream>

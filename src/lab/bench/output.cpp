@@ -14,10 +14,6 @@ namespace {
 constexpr std::size_t kForP99 = 100;
 constexpr std::size_t kForP999 = 1000;
 
-std::uint64_t possibleOf(const BenchRow& row) {
-    return row.pairs - row.contacts - row.untouched;
-}
-
 /// µs of ms.
 std::optional<double> quantile(const std::vector<double>& samples, double part, std::size_t needs = 1) {
     return samples.size() < needs ? std::nullopt : std::optional(1000 * quantileOf(samples, part));
@@ -34,7 +30,7 @@ void addRateColumns(const BenchRow& row, Row& out) {
         .add("wall_ratio", row.wallRatio, {"", "_min", "_max"})
         .add("cpu_ratio", row.cpuRatio, {"", "_min", "_max"})
         .add("no_contacts", row.untouched)
-        .add("possible", possibleOf(row));
+        .add("possible", row.pairs - row.contacts - row.untouched);
 }
 
 void addTickColumns(const BenchRow& row, Row& out) {
@@ -180,21 +176,17 @@ std::vector<std::string> soonestTicks(const BenchResult& result) {
     return out;
 }
 
-bool touches(const BenchRow& row) {
-    return row.touching > 0 || row.contacts > 0;
-}
-
 /// What must be known when reading the times of ticks.
 void noteTicks(const BenchSettings& settings, const BenchResult& result, std::vector<std::string>& notes) {
     const auto isCut = [&](const BenchRow& of) { return of.wall.size() < settings.number; };
     if (std::ranges::any_of(result.rows, isCut)) {
-        notes.push_back("rows of fewer than " + std::to_string(settings.number) +
-                        " ticks are of the first ones: the engine's share of --time-limit was used up");
+        notes.push_back(concat("rows of fewer than ", settings.number,
+                               " ticks are of the first ones: the engine's share of --time-limit was used up"));
     }
     std::vector<std::string> blind;
     for (const BenchRow& row : result.rows) {
         if (!row.engine.question.empty() && row.touching == 0) {
-            blind.push_back(engineText(row.engine) + " (" + row.engine.projection + " " + row.engine.question + ")");
+            blind.push_back(concat(engineText(row.engine), " (", row.engine.projection, " ", row.engine.question, ")"));
         }
     }
     if (!blind.empty()) {
@@ -215,6 +207,7 @@ void writeBench(std::ostream& out, io::Format format, const BenchSettings& setti
     Output output{.machine = result.machine, .members = {}, .about = "volume " + result.volume + how.about};
     output.notes = result.notes;
     output.sentences = ticks ? soonestTicks(result) : besideFcl(result);
+    const auto touches = [](const BenchRow& of) { return of.touching > 0 || of.contacts > 0; };
     if (ticks) {
         noteTicks(settings, result, output.notes);
     } else if (!result.rows.empty() && std::ranges::none_of(result.rows, touches)) {

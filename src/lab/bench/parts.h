@@ -31,21 +31,6 @@ struct BenchRun {
 /// 1, 10, 100, ... and `most`.
 [[nodiscard]] std::vector<std::uint32_t> batchSizes(std::uint32_t most);
 
-/// What the engines of a mode are made for: it is ready and outlives them. `session` may be null: none of a device.
-struct BenchParts {
-    const VolumePart& volume;
-    const MeshPart& mesh;
-    const device::Session* session;
-};
-/// The first is the host's yes or no on one thread, the second the host's count.
-void addCertified(const BenchParts& parts, EngineList& engines);
-/// The first is the host's count in the view, the second the host's in the projection conservative.
-void addOutputs(const BenchParts& parts, EngineList& engines);
-/// An empty submission, the host, and every method of the device, polled and waited for.
-void addLatency(const BenchParts& parts, EngineList& engines);
-/// The first is the host's certified yes or no, the second its count in the view.
-void addBatches(const BenchParts& parts, EngineList& engines);
-
 /// Whether the mesh touches at a pose, by an engine.
 [[nodiscard]] std::function<Result<bool>(const Mat4& pose)> touchesBy(const Engine& engine, const Work& work);
 

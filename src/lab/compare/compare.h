@@ -13,13 +13,13 @@ inline constexpr std::array<Sweep, 4> kSweeps{Sweep::Batch, Sweep::Triangles, Sw
 
 /// What `voxtact compare` measures, and how long.
 struct CompareSettings {
-    std::vector<CountingMethod> methods; ///< empty: every one
+    std::vector<CountingMethod> methods{}; ///< empty: every one
     std::uint32_t oraclePoses = 32;
-    std::vector<Sweep> sweeps;
+    std::vector<Sweep> sweeps{};
     std::uint32_t repeats = 7;
     double timeLimit = 15; ///< seconds, of each sweep
     bool keepGoing = false;
-    Loaders load; ///< for the sweeps of triangles and voxels
+    Loaders load{}; ///< for the sweeps of triangles and voxels
 };
 
 /// How pairs reach the method: each submitted and waited for alone (the paper's way), or batches in flight.
@@ -112,9 +112,6 @@ struct CompareRun {
 
 /// Counts every pose by every method, and judges the counts.
 [[nodiscard]] Result<void> checkCounts(const CompareRun& run);
-/// The device's fragments against the oracle's, on as many poses as the settings say, spread evenly over those on which
-/// a method counts anything. Adds to the result the checks, the verdicts and the oracle's counts and time.
-[[nodiscard]] Result<void> checkFragments(const CompareRun& run);
 
 /// What a sample of methods is that are timed on the same poses.
 struct SampleSize {

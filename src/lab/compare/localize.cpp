@@ -20,25 +20,24 @@ constexpr auto kTriangle = &TouchedTriangle::triangle;
 /// The ways, as many as there are in LocalizeResult::ways; one that cannot be had does not run. The last is certified.
 Result<Engines> makeWays(const device::Session& session, const Scene& scene, LocalizeResult& result) {
     Result<Engines> ways = makePolygonEngines(session, *scene.volume, *scene.mesh, result.machine.filterError);
+    VOXTACT_TRY(ways);
     MadeEngine certified = makeHostEngine({.projection = Projection::Conservative, .outputs = {.triangles = true}});
-    if (!ways.ok() || !certified.ok()) {
-        return ways.ok() ? certified.error() : ways.error();
+    VOXTACT_TRY(certified);
+    MadeEngine fragments = makeFragmentEngine(session);
+    std::string why;
+    if (!fragments.ok()) {
+        why = fragments.error().text;
+        result.notes.push_back("no way fragments on this device: " + why);
+    }
+    if (!fragments.ok() && fragments.error().code != ErrorCode::Unsupported) {
+        return fragments.error();
     }
     for (const Engine& way : *ways) {
         result.ways.push_back({.name = way.facts.name});
     }
-    LocalizeWay fragments{.name = "fragments"};
-    MadeEngine traced = makeFragmentEngine(session);
-    if (!traced.ok() && traced.error().code != ErrorCode::Unsupported) {
-        return traced.error();
-    }
-    if (!traced.ok()) {
-        fragments.unchecked = traced.error().text;
-        result.notes.push_back("no way fragments on this device: " + fragments.unchecked);
-    }
-    result.ways.push_back(std::move(fragments));
+    result.ways.push_back({.name = "fragments", .unchecked = why});
     result.ways.push_back({.name = "certified", .byView = false});
-    ways->push_back(traced.ok() ? std::move(*traced) : Engine());
+    ways->push_back(fragments.ok() ? std::move(*fragments) : Engine());
     ways->push_back(std::move(*certified));
     return ways;
 }

@@ -134,7 +134,7 @@ Row rowOf(const Series& series) {
 }
 
 io::Table seriesTable(const std::vector<Series>& series) {
-    return tableOf(cellsOf(series, rowOf), rowOf({}).cells());
+    return tableOf(cellsOf(series, [](const Series& one) { return rowOf(one); }), rowOf(Series()).cells());
 }
 
 Json seriesJson(const std::vector<Series>& series, const Machine& machine) {

@@ -228,90 +228,73 @@ void leaveOut(const CompareRun& run, const std::string& what, const Error& why) 
     run.result.notes.push_back("no point of " + what + ": " + why.text);
 }
 
-/// Whether a source is a builtin; a note where it is not.
-bool isSizable(const CompareRun& run, const std::string& source, const char* sweep, const char* what) {
-    const bool builtin = source.starts_with("builtin:");
-    if (!builtin) {
-        run.result.notes.push_back(std::string("no sweep of ") + sweep + ": the " + what +
-                                   " is not a builtin one, which can be had in any size");
+/// These give a point its size. False where that cannot be had, with a note where nothing else says so.
+Result<bool> sizeMesh(const CompareRun& run, std::uint32_t triangles, Swept& point) {
+    point.where = std::to_string(triangles) + " triangles";
+    point.scene.mesh = std::make_shared<MeshPart>();
+    const Result<void> loaded =
+        put(run.settings.load.mesh(resized(run.scene.mesh->name, triangles)), point.scene.mesh->data);
+    if (!loaded.ok()) {
+        leaveOut(run, point.where, loaded.error());
+        return false;
     }
-    return builtin;
+    VOXTACT_TRY(makeReady(&run.session, *point.scene.mesh));
+    return true;
 }
 
-Result<std::vector<Swept>> sizedMeshes(const CompareRun& run, const Scene& some) {
-    std::vector<Swept> points;
-    if (!isSizable(run, run.scene.mesh->name, "triangles", "mesh")) {
-        return points;
-    }
-    for (const std::uint32_t triangles : kTriangles) {
-        Swept point{some, std::to_string(triangles) + " triangles"};
-        point.scene.mesh = std::make_shared<MeshPart>();
-        const Result<void> loaded =
-            put(run.settings.load.mesh(resized(run.scene.mesh->name, triangles)), point.scene.mesh->data);
-        if (!loaded.ok()) {
-            leaveOut(run, point.where, loaded.error());
-            continue;
-        }
-        VOXTACT_TRY(makeReady(&run.session, *point.scene.mesh));
-        points.push_back(std::move(point));
-    }
-    return points;
+Result<bool> sizeViewport(const CompareRun& run, std::uint32_t side, Swept& point) {
+    View& view = point.scene.view;
+    view.height =
+        static_cast<std::uint32_t>(std::max(1L, std::lround(static_cast<double>(side) * view.height / view.width)));
+    view.width = side;
+    point.where = concat("--size ", view.width, "x", view.height);
+    return checkViewport(run.session, {view.width, view.height}).ok();
 }
 
-Result<std::vector<Swept>> sizedViewports(const CompareRun& run, const Scene& some) {
-    std::vector<Swept> points;
-    for (const std::uint32_t side : kSides) {
-        Swept point{some, {}};
-        View& view = point.scene.view;
-        view.height =
-            static_cast<std::uint32_t>(std::max(1L, std::lround(static_cast<double>(side) * view.height / view.width)));
-        view.width = side;
-        point.where = concat("--size ", view.width, "x", view.height);
-        if (checkViewport(run.session, {view.width, view.height}).ok()) {
-            points.push_back(std::move(point));
-        }
-    }
-    return points;
-}
-
-/// The volume of so many voxels a side, ready; null, and a note, where it cannot be had.
-Result<std::shared_ptr<VolumePart>> sizedVolume(const CompareRun& run, std::uint32_t side) {
+Result<bool> sizeVolume(const CompareRun& run, std::uint32_t quarters, Swept& point) {
     const VolumePart& like = *run.scene.volume;
-    const auto sized = std::make_shared<VolumePart>(VolumePart{.name = resized(like.name, side),
-                                                               .data = {},
-                                                               .points = like.points,
-                                                               .domain = like.domain,
-                                                               .tableSize = like.tableSize,
-                                                               .threshold = like.threshold});
-    Result<VolumeData> data = run.settings.load.volume(sized->name);
-    if (!data.ok()) {
-        leaveOut(run, sized->name, data.error());
-        return std::shared_ptr<VolumePart>();
-    }
-    sized->data = std::move(*data);
-    if (const Result<void> ready = makeReady(run.session, {}, *sized); !ready.ok()) {
-        if (ready.error().code != ErrorCode::LimitExceeded && ready.error().code != ErrorCode::OutOfMemory) {
-            return ready.error();
-        }
-        leaveOut(run, sized->name, ready.error());
-        return std::shared_ptr<VolumePart>();
+    point.scene.volume =
+        std::make_shared<VolumePart>(VolumePart{.name = resized(like.name, like.data.grid.size[0] * quarters / 4),
+                                                .data = {},
+                                                .points = like.points,
+                                                .domain = like.domain,
+                                                .tableSize = like.tableSize,
+                                                .threshold = like.threshold});
+    VolumePart& sized = *point.scene.volume;
+    const Result<void> loaded = put(run.settings.load.volume(sized.name), sized.data);
+    const Result<void> ready = loaded.ok() ? makeReady(run.session, {}, sized) : loaded;
+    run.step();
+    if (!ready.ok()) {
+        const bool tooLarge =
+            ready.error().code == ErrorCode::LimitExceeded || ready.error().code == ErrorCode::OutOfMemory;
+        leaveOut(run, sized.name, ready.error());
+        return loaded.ok() && !tooLarge ? Result<bool>(ready.error()) : false;
     }
     // In both engines by now, and as many bytes as either.
-    sized->data.voxels = {};
-    return sized;
+    sized.data.voxels = {};
+    point.where = sizeText(sized.data.grid.size) + " voxels";
+    return true;
 }
 
-Result<std::vector<Swept>> sizedVolumes(const CompareRun& run, const Scene& some) {
+/// Those that can be had.
+Result<std::vector<Swept>> pointsOf(const CompareRun& run, Sweep sweep) {
+    using Sizes = std::span<const std::uint32_t>;
+    const bool meshes = sweep == Sweep::Triangles;
+    const bool viewports = sweep == Sweep::Fragments;
+    const std::string& source = meshes ? run.scene.mesh->name : run.scene.volume->name;
     std::vector<Swept> points;
-    if (!isSizable(run, run.scene.volume->name, "voxels", "volume")) {
+    if (!viewports && !source.starts_with("builtin:")) {
+        run.result.notes.push_back(concat("no sweep of ", toString(sweep), ": the ", meshes ? "mesh" : "volume",
+                                          " is not a builtin one, which can be had in any size"));
         return points;
     }
-    for (const std::uint32_t quarters : kQuarters) {
+    const auto resize = meshes ? sizeMesh : viewports ? sizeViewport : sizeVolume;
+    const Scene some = run.scene.withPoses(kSweepPairs);
+    for (const std::uint32_t size : meshes ? Sizes(kTriangles) : viewports ? Sizes(kSides) : Sizes(kQuarters)) {
         Swept point{some, {}};
-        VOXTACT_TRY(put(sizedVolume(run, run.scene.volume->data.grid.size[0] * quarters / 4), point.scene.volume));
-        run.step();
-        if (point.scene.volume != nullptr) {
-            point.where = sizeText(point.scene.volume->data.grid.size) + " voxels";
+        const Result<bool> had = resize(run, size, point);
+        VOXTACT_TRY(had);
+        if (*had) {
             points.push_back(std::move(point));
         }
     }
@@ -329,24 +312,6 @@ Result<void> verify(const CompareRun& run, Sweep sweep, const Swept& point) {
             run.result.verdicts.push_back(std::move(verdict));
         }
     }
-    return {};
-}
-
-/// Verifies all points, and times them.
-Result<void> timeSwept(const CompareRun& run, Sweep sweep, const std::vector<Swept>& swept) {
-    std::vector<Point> points;
-    for (const Swept& one : swept) {
-        VOXTACT_TRY(verify(run, sweep, one));
-        for (const Engine& engine : run.engines) {
-            points.push_back(makePoint(sweep, engine, Work(one.scene), Mode::Pipelined,
-                                       static_cast<std::uint32_t>(one.scene.poses.size())));
-        }
-    }
-    if (points.empty() || run.ended()) {
-        return {};
-    }
-    VOXTACT_TRY(measure(run, points));
-    addSorted(seriesOf(points), run.result);
     return {};
 }
 
@@ -375,12 +340,22 @@ Result<void> timeSweep(const CompareRun& run, Sweep sweep) {
     if (sweep == Sweep::Batch) {
         return timeBatches(run);
     }
-    const Scene some = run.scene.withPoses(kSweepPairs);
-    const Result<std::vector<Swept>> points = sweep == Sweep::Triangles   ? sizedMeshes(run, some)
-                                              : sweep == Sweep::Fragments ? sizedViewports(run, some)
-                                                                          : sizedVolumes(run, some);
-    VOXTACT_TRY(points);
-    return timeSwept(run, sweep, *points);
+    const Result<std::vector<Swept>> all = pointsOf(run, sweep);
+    VOXTACT_TRY(all);
+    std::vector<Point> points;
+    for (const Swept& one : *all) {
+        VOXTACT_TRY(verify(run, sweep, one));
+        for (const Engine& engine : run.engines) {
+            points.push_back(makePoint(sweep, engine, Work(one.scene), Mode::Pipelined,
+                                       static_cast<std::uint32_t>(one.scene.poses.size())));
+        }
+    }
+    if (points.empty() || run.ended()) {
+        return {};
+    }
+    VOXTACT_TRY(measure(run, points));
+    addSorted(seriesOf(points), run.result);
+    return {};
 }
 
 } // namespace voxtact::lab

@@ -18,27 +18,19 @@ namespace {
 struct DevicePairs {
     const device::Session& session;
     Detector detector;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, device::PairPipeline> pipelines{};
+    /// By batch and frames in flight. Made once: a pass pays for no allocation.
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::optional<device::PairPipeline>> pipelines{};
 };
 
-/// Made once: a pass pays for no allocation.
-Result<device::PairPipeline*> pipelineFor(DevicePairs& pairs, std::uint32_t batch, std::uint32_t frames) {
-    const std::pair key{batch, frames};
-    if (const auto found = pairs.pipelines.find(key); found != pairs.pipelines.end()) {
-        return &found->second;
-    }
-    Result<device::PairPipeline> made =
-        device::PairPipeline::create(pairs.session.device, pairs.session.context, pairs.detector,
-                                     {.frames = frames, .pairsPerSubmission = batch, .timestamps = true});
-    VOXTACT_TRY(made);
-    return &pairs.pipelines.emplace(key, std::move(*made)).first->second;
-}
-
 Result<Pass> runOnDevice(DevicePairs& pairs, const Work& work, const Feeding& feeding) {
-    const auto all = static_cast<std::uint32_t>(work.poses.size());
-    const Result<device::PairPipeline*> pipe =
-        pipelineFor(pairs, feeding.batch == 0 ? all : feeding.batch, feeding.frames);
-    VOXTACT_TRY(pipe);
+    const std::uint32_t batch = feeding.batch == 0 ? static_cast<std::uint32_t>(work.poses.size()) : feeding.batch;
+    std::optional<device::PairPipeline>& pipe = pairs.pipelines[{batch, feeding.frames}];
+    if (!pipe) {
+        VOXTACT_TRY(put(
+            device::PairPipeline::create(pairs.session.device, pairs.session.context, pairs.detector,
+                                         {.frames = feeding.frames, .pairsPerSubmission = batch, .timestamps = true}),
+            pipe));
+    }
     const BatchItem item = work.onDevice();
     Pass pass;
     pass.pairs.reserve(work.poses.size());
@@ -46,11 +38,11 @@ Result<Pass> runOnDevice(DevicePairs& pairs, const Work& work, const Feeding& fe
     bool timed = true;
     const Stopwatch watch;
     const Result<void> done =
-        (*pipe)->run({{&item, 1}, work.view, work.volume->threshold}, {.pair = [&](const device::TimedAnswer& answer) {
-                         pass.pairs.push_back(answer.answer);
-                         gpu += answer.gpuMilliseconds.value_or(0);
-                         timed = timed && answer.gpuMilliseconds.has_value();
-                     }});
+        pipe->run({{&item, 1}, work.view, work.volume->threshold}, {.pair = [&](const device::TimedAnswer& answer) {
+                      pass.pairs.push_back(answer.answer);
+                      gpu += answer.gpuMilliseconds.value_or(0);
+                      timed = timed && answer.gpuMilliseconds.has_value();
+                  }});
     pass.wallMilliseconds = watch.milliseconds();
     VOXTACT_TRY(done);
     if (timed) {

@@ -1,20 +1,30 @@
 // SPDX-License-Identifier: MIT
 #include "lab/engines/localize.h"
+
 #include "core/base/guard.h"
 #include "core/base/refuse.h"
 #include "core/base/try.h"
+#include "cpu/certified/brick_occupancy.h"
 #include "detect/batch.h"
 #include "detect/recording.h"
+#include "detect/results/result_store.h"
 #include "detect/view.h"
+#include "gpu/barriers.h"
 #include "gpu/debug.h"
+#include "gpu/layouts.h"
 #include "gpu/scene_impl.h"
 #include "gpu/submit.h"
+#include "lab/measure/numbers.h"
 #include "lab/measure/stopwatch.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 #include <numeric>
+#include <span>
+#include <tuple>
 
 namespace voxtact {
 
@@ -27,31 +37,36 @@ struct Localizer::State {
     Submitter submitter;
 };
 
+struct FragmentTrace::State {
+    ContextImpl& context;
+    std::shared_ptr<ContextImpl> owner = context.shared_from_this();
+    Owned<VkDescriptorSetLayout> setLayout{};
+    Owned<VkPipelineLayout> layout{};
+    std::optional<ViewPass> pass{};
+    std::optional<Results> results{};
+    Buffer list{};
+    Buffer readBack{};
+    DescriptorSet descriptors{};
+    Submitter submitter;
+};
+
 namespace {
 
 /// Queries of a submission.
 constexpr std::uint32_t kQueries = 4096;
 /// What prepareResults() and publishResults() are to do: nothing about queries.
 constexpr DetectorDesc kDesc{.method = CountingMethod::Atomic, .boundary = Boundary::Range};
+
+/// Refuses a batch that is not of one pair.
+Result<void> checkOnePair(const ContextImpl& context, const Batch& batch, const char* what) {
+    const Result<std::uint32_t> pairs = checkBatch(context, kDesc, batch);
+    VOXTACT_TRY(pairs);
+    return *pairs == 1 ? Result<void>() : refuse(lab::concat(what, " one pair, the batch has ", *pairs));
+}
+
 /// How much larger boxes are made, beside what the device's float arithmetic can be off by, relative to coordinates.
 constexpr double kVoxels = 0.5;
 constexpr double kFloatError = 0x1p-18;
-
-Result<Owned<VkQueryPool>> makeQueries(ContextImpl& context) {
-    VkQueryPoolCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
-    info.queryType = VK_QUERY_TYPE_OCCLUSION;
-    info.queryCount = kQueries;
-    VkQueryPool pool = VK_NULL_HANDLE;
-    if (const VkResult result = context.vk.CreateQueryPool(context.device, &info, context.allocator, &pool);
-        result != VK_SUCCESS) {
-        return context.failure(result, "making a query pool");
-    }
-    nameObject(context, VK_OBJECT_TYPE_QUERY_POOL, pool, "queries of triangles");
-    return Owned<VkQueryPool>(context, pool, [](ContextImpl& c, VkQueryPool handle) {
-        c.vk.DestroyQueryPool(c.device, handle, c.allocator);
-    });
-}
 
 /// Whether a node of the tree may touch, by the margins around its bounds in texture space.
 bool mayTouch(const ObbNode& node, const Mat4& texture_from_object, const Grid& grid, const LocalizeAids& aids,
@@ -95,9 +110,9 @@ Result<void> checkAids(const BatchItem& item, Localization way, const LocalizeAi
         return {};
     }
     if (aids.tree == nullptr || aids.tree->triangles.size() != item.mesh->triangles()) {
-        return refuse("LocalizeAids::tree must be the tree of the mesh, which has " +
-                      std::to_string(item.mesh->triangles()) + " triangles; it has " +
-                      (aids.tree == nullptr ? "none" : std::to_string(aids.tree->triangles.size())));
+        return refuse(lab::concat("LocalizeAids::tree must be the tree of the mesh, which has ", item.mesh->triangles(),
+                                  " triangles; it has ",
+                                  aids.tree == nullptr ? "none" : std::to_string(aids.tree->triangles.size())));
     }
     if (way == Localization::LeafBricks && !aids.mayBeOpaque) {
         return refuse("LocalizeAids::mayBeOpaque is empty, leaf-bricks asks it");
@@ -160,6 +175,101 @@ Result<lab::Pass> localize(Localizer::State& localizer, const Batch& batch, cons
     return out;
 }
 
+constexpr std::uint32_t kFirstCapacity = 1U << 16U;
+/// The list is a counter, then records.
+constexpr VkDeviceSize kHeader = sizeof(std::uint32_t);
+
+Result<void> makeLayouts(FragmentTrace::State& trace) {
+    ContextImpl& context = trace.context;
+    const VkDescriptorSetLayoutBinding binding{0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_FRAGMENT_BIT,
+                                               nullptr};
+    VOXTACT_TRY(makeSetLayout(context, trace.setLayout, {&binding, 1}, "trace set layout"));
+    const VkDescriptorSetLayout sets[] = {context.setLayouts[0], context.setLayouts[1], context.setLayouts[2],
+                                          trace.setLayout.get()};
+    static_assert(std::size(sets) == VOXTACT_SET_TRACE + 1);
+    const VkPushConstantRange constants{VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(shader::RasterConstants)};
+    return makePipelineLayout(context, trace.layout, sets, {&constants, 1}, "trace pipeline layout");
+}
+
+/// Makes room for a list of `capacity` fragments.
+Result<void> reserve(FragmentTrace::State& trace, std::uint32_t capacity) {
+    ContextImpl& context = trace.context;
+    const VkDeviceSize bytes = kHeader + VkDeviceSize{capacity} * sizeof(shader::TracedFragment);
+    if (bytes > context.limits.maxStorageBufferRange) {
+        return Error{ErrorCode::OutOfMemory, 0,
+                     lab::concat("a list of ", capacity, " fragments is beyond the device's maxStorageBufferRange, ",
+                                 context.limits.maxStorageBufferRange)};
+    }
+    Result<Buffer> list = makeBuffer(context, bytes,
+                                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                                         VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                     MemoryUse::Device, "fragment list");
+    VOXTACT_TRY(list);
+    Result<Buffer> readBack =
+        makeBuffer(context, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::ReadBack, "fragment list on the host");
+    VOXTACT_TRY(readBack);
+    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1};
+    Result<DescriptorSet> set = makeDescriptorSet(context, trace.setLayout.get(), {&size, 1}, "fragment list");
+    VOXTACT_TRY(set);
+    trace.list = std::move(*list);
+    trace.readBack = std::move(*readBack);
+    trace.descriptors = std::move(*set);
+    writeBuffer(context, trace.descriptors.set, 0, trace.list.get());
+    return {};
+}
+
+Result<void> record(FragmentTrace::State& trace, VkCommandBuffer commandBuffer, const Batch& batch) {
+    ContextImpl& context = trace.context;
+    ResultsImpl& results = trace.results->impl();
+    const Label label(context, commandBuffer, "voxtact fragment trace");
+    results.pairs = 1;
+    const std::uint32_t zero = 0;
+    context.vk.CmdUpdateBuffer(commandBuffer, trace.list.get(), 0, sizeof zero, &zero);
+    VOXTACT_TRY(prepareResults(context, commandBuffer, batch, results, kDesc));
+    context.vk.CmdBindDescriptorSets(commandBuffer, VK_PIPELINE_BIND_POINT_GRAPHICS, trace.layout.get(),
+                                     VOXTACT_SET_TRACE, 1, &trace.descriptors.set, 0, nullptr);
+    trace.pass->record(commandBuffer, batch, results, [](const BatchItem&) { return Boundary::Range; });
+    publishResults(context, commandBuffer, results, kDesc);
+    const VkBufferCopy whole{0, 0, trace.list.size};
+    context.vk.CmdCopyBuffer(commandBuffer, trace.list.get(), trace.readBack.get(), 1, &whole);
+    barrier(context, commandBuffer, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+            VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
+    return {};
+}
+
+/// One try: the number of survivors, of which the list may hold fewer.
+Result<std::uint32_t> run(FragmentTrace::State& trace, const Batch& batch) {
+    const Result<VkCommandBuffer> commandBuffer = trace.submitter.begin();
+    VOXTACT_TRY(commandBuffer);
+    VOXTACT_TRY(record(trace, *commandBuffer, batch));
+    VOXTACT_TRY(trace.submitter.submitAndWait());
+    VOXTACT_TRY(invalidate(trace.context, trace.readBack));
+    std::uint32_t count = 0;
+    std::memcpy(&count, trace.readBack.mapped, sizeof count);
+    return count;
+}
+
+Result<lab::Pass> listFragments(FragmentTrace& trace, const lab::Work& work, const lab::Feeding& /*feeding*/) {
+    const lab::Stopwatch watch;
+    const BatchItem item = work.onDevice();
+    const Result<std::vector<shader::TracedFragment>> fragments =
+        trace.survivors({{&item, 1}, work.view, work.volume->threshold});
+    VOXTACT_TRY(fragments);
+    lab::Pass pass;
+    for (const shader::TracedFragment& fragment : *fragments) {
+        if (pass.triangles.empty() || pass.triangles.back().triangle != fragment.triangle) {
+            pass.triangles.push_back({0, fragment.triangle, 0});
+        }
+        ++pass.triangles.back().count;
+    }
+    pass.wallMilliseconds = watch.milliseconds();
+    return pass;
+}
+
+lab::EngineFacts factsOfView(const char* name) {
+    return {.name = name, .projection = toString(Projection::View), .threads = 0};
+}
+
 } // namespace
 
 const char* toString(Localization way) noexcept {
@@ -183,7 +293,8 @@ Result<Localizer> Localizer::create(const Context& context, Filter filter, const
                                                             .timestamps = c.timestampBits(queue.family) > 0,
                                                             .queueFamily = queue.family});
         VOXTACT_TRY(results);
-        Result<Owned<VkQueryPool>> queries = makeQueries(c);
+        Result<Owned<VkQueryPool>> queries =
+            makeQueryPool(c, VK_QUERY_TYPE_OCCLUSION, kQueries, "queries of triangles");
         VOXTACT_TRY(queries);
         return Localizer(std::make_shared<State>(State{.context = c,
                                                        .pass = std::move(*pass),
@@ -195,16 +306,83 @@ Result<Localizer> Localizer::create(const Context& context, Filter filter, const
 
 Result<lab::Pass> Localizer::triangles(const Batch& batch, Localization way, const LocalizeAids& aids) {
     return guard([&]() -> Result<lab::Pass> {
-        const Result<std::uint32_t> pairs = checkBatch(state_->context, kDesc, batch);
-        VOXTACT_TRY(pairs);
-        if (*pairs != 1) {
-            return refuse("triangles are found for one pair, the batch has " + std::to_string(*pairs));
-        }
+        VOXTACT_TRY(checkOnePair(state_->context, batch, "triangles are found for"));
         const BatchItem& item =
             *std::ranges::find_if(batch.items, [](const BatchItem& i) { return !i.world_from_object.empty(); });
         VOXTACT_TRY(checkAids(item, way, aids));
         return localize(*state_, batch, item, way, aids);
     });
 }
+
+Result<FragmentTrace> FragmentTrace::create(const Context& context, Filter filter, const QueueAccess& queue) {
+    return guard([&]() -> Result<FragmentTrace> {
+        ContextImpl& c = context.impl();
+        if (!c.features.geometryShader || !c.features.fragmentStoresAndAtomics) {
+            return Error{ErrorCode::Unsupported, 0,
+                         "a list of fragments needs geometryShader and fragmentStoresAndAtomics to be enabled"};
+        }
+        Result<Submitter> submitter = Submitter::create(c, queue);
+        VOXTACT_TRY(submitter);
+        const auto state = std::make_shared<State>(State{.context = c, .submitter = std::move(*submitter)});
+        VOXTACT_TRY(makeLayouts(*state));
+        VOXTACT_TRY(lab::put(ViewPass::createTrace(c, filter, state->layout.get()), state->pass));
+        VOXTACT_TRY(lab::put(Results::create(context, {.maxPairs = 1, .readBack = false}), state->results));
+        VOXTACT_TRY(reserve(*state, kFirstCapacity));
+        return FragmentTrace(state);
+    });
+}
+
+Result<std::vector<shader::TracedFragment>> FragmentTrace::survivors(const Batch& batch) {
+    return guard([&]() -> Result<std::vector<shader::TracedFragment>> {
+        VOXTACT_TRY(checkOnePair(state_->context, batch, "a trace is of"));
+        Result<std::uint32_t> count = run(*state_, batch);
+        if (count.ok() && kHeader + VkDeviceSize{*count} * sizeof(shader::TracedFragment) > state_->list.size) {
+            VOXTACT_TRY(reserve(*state_, *count));
+            count = run(*state_, batch);
+        }
+        VOXTACT_TRY(count);
+        std::vector<shader::TracedFragment> out(*count);
+        std::ranges::copy_n(static_cast<const std::byte*>(state_->readBack.mapped) + kHeader,
+                            static_cast<std::ptrdiff_t>(out.size() * sizeof out[0]),
+                            std::as_writable_bytes(std::span(out)).begin());
+        std::ranges::sort(out, {}, [](const shader::TracedFragment& f) { return std::tuple(f.triangle, f.y, f.x); });
+        return out;
+    });
+}
+
+namespace lab {
+
+Result<Engines> makePolygonEngines(const device::Session& session, const VolumePart& volume, const MeshPart& mesh,
+                                   double tolerance) {
+    Result<Localizer> localizer = Localizer::create(session.context, Filter::Hardware, session.device.queueAccess());
+    VOXTACT_TRY(localizer);
+    struct Parts {
+        Localizer localizer;
+        ObbTree tree;
+        cpu::BrickOccupancy bricks;
+    };
+    const auto parts = std::make_shared<Parts>(
+        Parts{std::move(*localizer), makeObbTree(mesh.data.view()),
+              cpu::BrickOccupancy(*volume.host, *volume.hostFunction, volume.threshold, tolerance)});
+    Engines engines;
+    for (const Localization way : {Localization::Polygon, Localization::Leaf, Localization::LeafBricks}) {
+        engines.push_back(
+            {factsOfView(toString(way)), [parts, way](const Work& work, const Feeding&) {
+                 const BatchItem item = work.onDevice();
+                 const LocalizeAids aids{&parts->tree, [&](const Box& box) { return parts->bricks.mayBeOpaque(box); }};
+                 return parts->localizer.triangles({{&item, 1}, work.view, work.volume->threshold}, way, aids);
+             }});
+    }
+    return engines;
+}
+
+MadeEngine makeFragmentEngine(const device::Session& session) {
+    Result<FragmentTrace> trace =
+        FragmentTrace::create(session.context, Filter::Hardware, session.device.queueAccess());
+    VOXTACT_TRY(trace);
+    return engineOf(factsOfView("fragments"), std::move(*trace), listFragments);
+}
+
+} // namespace lab
 
 } // namespace voxtact

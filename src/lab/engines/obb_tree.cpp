@@ -42,9 +42,8 @@ std::vector<double> weightsOf(const MeshView& mesh, Triangles triangles) {
     weights.reserve(triangles.size());
     for (const std::uint32_t triangle : triangles) {
         const dvec3 at = cornerOf(mesh, triangle, 0);
-        // No float is so large or small that its fourth power is not a double.
-        weights.push_back(glm::length(glm::cross(cornerOf(mesh, triangle, 1) - at, cornerOf(mesh, triangle, 2) - at)) /
-                          2);
+        const dvec3 across = glm::cross(cornerOf(mesh, triangle, 1) - at, cornerOf(mesh, triangle, 2) - at);
+        weights.push_back(glm::length(across) / 2); // no float's fourth power is too large or small for a double
     }
     const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
     for (double& weight : weights) {
@@ -133,79 +132,41 @@ void fitBox(const MeshView& mesh, Triangles triangles, ObbNode& node) {
     node.half = fromGlm(half);
 }
 
-class Builder {
-  public:
-    explicit Builder(const MeshView& mesh) : mesh_(mesh), centroids_(mesh.indices.size() / 3, dvec3(0)) {
-        tree_.triangles.resize(centroids_.size());
-        std::iota(tree_.triangles.begin(), tree_.triangles.end(), 0U);
-        std::size_t corners = 0;
-        visitVertices(mesh, tree_.triangles, [&](const dvec3& vertex) { centroids_[corners++ / 3] += vertex / 3.0; });
-        tree_.nodes.reserve(2 * centroids_.size() - 1);
-    }
+std::vector<dvec3> centroidsOf(const MeshView& mesh, Triangles all) {
+    std::vector<dvec3> centroids(all.size(), dvec3(0));
+    std::size_t corners = 0;
+    visitVertices(mesh, all, [&](const dvec3& vertex) { centroids[corners++ / 3] += vertex / 3.0; });
+    return centroids;
+}
 
-    /// With a stack of its own: the depth of a tree is the mesh's choice.
-    ObbTree build() {
-        struct Part {
-            std::uint32_t first;
-            std::uint32_t count;
+/// Puts the left child's triangles first. Returns their number: neither 0 nor all.
+std::uint32_t split(const ObbNode& node, std::span<const dvec3> centroids, std::span<std::uint32_t> triangles) {
+    std::array<std::size_t, 3> byLength{0, 1, 2};
+    std::ranges::stable_sort(byLength, std::greater{}, [&](std::size_t axis) { return node.half[axis]; });
+    for (const std::size_t axis : byLength) {
+        const auto at = [&, along = toGlm(node.axes[axis])](std::uint32_t triangle) {
+            return glm::dot(along, centroids[triangle]);
         };
-        std::vector<Part> waiting{{0, static_cast<std::uint32_t>(tree_.triangles.size())}};
-        while (!waiting.empty()) {
-            const Part part = waiting.back();
-            waiting.pop_back();
-            const std::span<std::uint32_t> triangles = std::span(tree_.triangles).subspan(part.first, part.count);
-            ObbNode& node = tree_.nodes.emplace_back();
-            node.firstTriangle = part.first;
-            node.triangleCount = part.count;
-            fitBox(mesh_, triangles, node);
-            if (part.count > kObbLeafTriangles) {
-                const std::uint32_t left = split(node, triangles);
-                waiting.push_back({part.first + left, part.count - left});
-                waiting.push_back({part.first, left});
-            }
+        double mean = 0;
+        for (const std::uint32_t triangle : triangles) {
+            mean += at(triangle) / static_cast<double>(triangles.size());
         }
-        linkNodes();
-        return std::move(tree_);
-    }
-
-  private:
-    /// Puts the left child's triangles first. Returns their number: neither 0 nor all.
-    std::uint32_t split(const ObbNode& node, std::span<std::uint32_t> triangles) const {
-        std::array<std::size_t, 3> byLength{0, 1, 2};
-        std::ranges::stable_sort(byLength, std::greater{}, [&](std::size_t axis) { return node.half[axis]; });
-        for (const std::size_t axis : byLength) {
-            const auto at = [&, along = toGlm(node.axes[axis])](std::uint32_t triangle) {
-                return glm::dot(along, centroids_[triangle]);
-            };
-            double mean = 0;
-            for (const std::uint32_t triangle : triangles) {
-                mean += at(triangle) / static_cast<double>(triangles.size());
-            }
-            const auto middle = std::stable_partition(triangles.begin(), triangles.end(),
-                                                      [&](std::uint32_t triangle) { return at(triangle) < mean; });
-            if (middle != triangles.begin() && middle != triangles.end()) {
-                return static_cast<std::uint32_t>(middle - triangles.begin());
-            }
-        }
-        return static_cast<std::uint32_t>(triangles.size() / 2);
-    }
-
-    /// From the last to the first: children before their parents.
-    void linkNodes() {
-        for (auto at = static_cast<std::uint32_t>(tree_.nodes.size()); at-- > 0;) {
-            ObbNode& node = tree_.nodes[at];
-            node.next = at + 1;
-            if (node.triangleCount > kObbLeafTriangles) {
-                const std::uint32_t right = tree_.nodes[at + 1].next;
-                node.next = tree_.nodes[right].next;
-            }
+        const auto middle = std::stable_partition(triangles.begin(), triangles.end(),
+                                                  [&](std::uint32_t triangle) { return at(triangle) < mean; });
+        if (middle != triangles.begin() && middle != triangles.end()) {
+            return static_cast<std::uint32_t>(middle - triangles.begin());
         }
     }
+    return static_cast<std::uint32_t>(triangles.size() / 2);
+}
 
-    const MeshView& mesh_;
-    std::vector<dvec3> centroids_;
-    ObbTree tree_;
-};
+/// From the last to the first: children before their parents.
+void linkNodes(std::vector<ObbNode>& nodes) {
+    for (auto at = static_cast<std::uint32_t>(nodes.size()); at-- > 0;) {
+        const bool leaf = nodes[at].triangleCount <= kObbLeafTriangles;
+        nodes[at].next = leaf ? at + 1 : nodes[nodes[at + 1].next].next;
+    }
+}
 
 /// Of the sums below, relative to the sum of the magnitudes of what goes into them: some thirty roundings of 2^-53.
 constexpr double kError = 0x1p-46;
@@ -257,7 +218,30 @@ Mat4 frameOf(const ObbNode& node) noexcept {
 }
 
 ObbTree makeObbTree(const MeshView& mesh) {
-    return Builder(mesh).build();
+    ObbTree tree;
+    tree.triangles.resize(mesh.indices.size() / 3);
+    std::iota(tree.triangles.begin(), tree.triangles.end(), 0U);
+    tree.nodes.reserve(2 * tree.triangles.size() - 1);
+    const std::vector<dvec3> centroids = centroidsOf(mesh, tree.triangles);
+    // A stack of its own: the depth of a tree is the mesh's choice. The first of its triangles, and how many.
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> waiting{
+        {0, static_cast<std::uint32_t>(tree.triangles.size())}};
+    while (!waiting.empty()) {
+        const auto [first, count] = waiting.back();
+        waiting.pop_back();
+        const std::span<std::uint32_t> triangles = std::span(tree.triangles).subspan(first, count);
+        ObbNode& node = tree.nodes.emplace_back();
+        node.firstTriangle = first;
+        node.triangleCount = count;
+        fitBox(mesh, triangles, node);
+        if (count > kObbLeafTriangles) {
+            const std::uint32_t left = split(node, centroids, triangles);
+            waiting.emplace_back(first + left, count - left);
+            waiting.emplace_back(first, left);
+        }
+    }
+    linkNodes(tree.nodes);
+    return tree;
 }
 
 bool obbMeetsBox(const ObbNode& node, const Mat4& texture_from_object, const Box& box) noexcept {

@@ -3,6 +3,7 @@
 
 #include "core/base/refuse.h"
 #include "core/base/text.h"
+#include "lab/measure/numbers.h"
 
 #include <algorithm>
 
@@ -101,8 +102,8 @@ Result<void> checkViewport(const device::Session& session, const VkExtent2D& siz
         std::max(size.width, size.height) <= cpu::kMaxViewport) {
         return {};
     }
-    return refuse("--size: " + std::to_string(size.width) + "x" + std::to_string(size.height) + " is beyond what '" +
-                  session.device.physical().name + "' can do");
+    return refuse(concat("--size: ", size.width, "x", size.height, " is beyond what '", session.device.physical().name,
+                         "' can do"));
 }
 
 } // namespace voxtact::lab

@@ -86,7 +86,7 @@ std::string grouped(std::uint64_t value) {
 }
 
 std::string sizeText(const std::array<std::uint32_t, 3>& voxels) {
-    return std::to_string(voxels[0]) + "x" + std::to_string(voxels[1]) + "x" + std::to_string(voxels[2]);
+    return concat(voxels[0], "x", voxels[1], "x", voxels[2]);
 }
 
 std::string joined(const std::vector<std::string>& texts, const char* between) {

@@ -3,6 +3,7 @@
 
 #include "core/base/refuse.h"
 #include "core/base/try.h"
+#include "lab/measure/numbers.h"
 #include "voxtact/motion.h"
 
 #include <glm/gtc/quaternion.hpp>
@@ -115,22 +116,6 @@ Vec3 directionTo(const Vec3& from, const Vec3& to) {
     return way;
 }
 
-/// Where a stroke begins, and how deep it goes.
-struct Stroke {
-    Mat4 outside;
-    Mat4 inside;
-};
-
-Result<Mat4> poseAt(const Stroke& stroke, const Stroke& next, std::uint32_t tick, const Vec3& centre) {
-    const auto between = [&](const Mat4& from, const Mat4& to, std::uint32_t ticks, std::uint32_t of) {
-        return poseBetween(from, to, static_cast<double>(ticks) / of, Interpolation::Slerp, centre);
-    };
-    return tick < kTicksIn ? between(stroke.outside, stroke.inside, tick, kTicksIn)
-           : tick < 2 * kTicksIn
-               ? between(stroke.inside, stroke.outside, tick - kTicksIn, kTicksIn)
-               : between(stroke.outside, next.outside, tick - 2 * kTicksIn, kTicksPerStroke - 2 * kTicksIn);
-}
-
 } // namespace
 
 std::vector<Mat4> randomPoses(const Grid& grid, const MeshView& mesh, std::uint32_t count, std::uint64_t seed) {
@@ -161,8 +146,8 @@ Result<std::vector<Mat4>> onsetPoses(const Grid& grid, const MeshView& mesh, std
     std::vector<Mat4> poses;
     for (std::uint64_t tries = 0; poses.size() < count; ++tries) {
         if (tries == kTries * count) {
-            return refuse("no poses around the onset of contact: of " + std::to_string(tries) + " random poses only " +
-                          std::to_string(poses.size()) + " touch");
+            return refuse(concat("no poses around the onset of contact: of ", tries, " random poses only ",
+                                 poses.size(), " touch"));
         }
         const Mat4 start = randomPose(world_from_texture, mesh, 0, random);
         const Vec3 direction = transformPoint(randomRotation(random), {0, 0, 1});
@@ -195,16 +180,23 @@ Result<std::vector<Mat4>> movingPoses(const Grid& grid, const MeshView& mesh, st
     const Vec3 centre{(lo[0] + hi[0]) / 2, (lo[1] + hi[1]) / 2, (lo[2] + hi[2]) / 2};
     const Vec3 middle = transformPoint(worldFromTexture(grid), {0.5, 0.5, 0.5});
     const double voxel = *std::ranges::min_element(grid.spacing);
-    std::vector<Stroke> all;
+    std::vector<Mat4> outside;
+    std::vector<Mat4> inside;
     for (const Mat4& pose : *onset) {
         const Vec3 outward = directionTo(middle, transformPoint(pose, centre));
-        all.push_back({movedBy(pose, outward, kOutside * voxel), movedBy(pose, outward, -kInside * voxel)});
+        outside.push_back(movedBy(pose, outward, kOutside * voxel));
+        inside.push_back(movedBy(pose, outward, -kInside * voxel));
     }
     std::vector<Mat4> poses;
     poses.reserve(count);
     for (std::uint32_t i = 0; i < count; ++i) {
         const std::size_t stroke = i / kTicksPerStroke;
-        const Result<Mat4> pose = poseAt(all[stroke], all[(stroke + 1) % all.size()], i % kTicksPerStroke, centre);
+        const std::uint32_t tick = i % kTicksPerStroke;
+        const Mat4 stops[] = {outside[stroke], inside[stroke], outside[stroke], outside[(stroke + 1) % strokes]};
+        const std::size_t way = std::min(tick / kTicksIn, 2U);
+        const std::uint32_t ticks = way < 2 ? kTicksIn : kTicksPerStroke - 2 * kTicksIn;
+        const double part = (tick - static_cast<double>(way) * kTicksIn) / ticks;
+        const Result<Mat4> pose = poseBetween(stops[way], stops[way + 1], part, Interpolation::Slerp, centre);
         VOXTACT_TRY(pose);
         poses.push_back(*pose);
     }

@@ -47,50 +47,18 @@ constexpr std::uint32_t kFrameStamps = 5;
 constexpr ImageUse kDrawnTo{VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT,
                             VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
 
-/// What a picture needs beside what the detection has.
-struct PictureParts {
-    std::optional<Renderer> renderer{};
-    std::optional<RenderTransferFunction> function{};
-    std::optional<RenderBricks> bricks{};
-    std::optional<MeshNormals> normals{};
-    std::optional<RenderTargets> targets{};
-    std::optional<Image> image{}; ///< that is drawn to
-};
-
-/// The parts must be ready, the volume with bricks.
-Result<void> makePicture(const device::Session& session, const Scene& scene, PictureParts& picture) {
-    const VolumePart& volume = *scene.volume;
-    const QueueAccess queue = session.device.queueAccess();
-    const VkExtent2D extent{scene.view.width, scene.view.height};
-    VOXTACT_TRY(put(Renderer::create(session.context), picture.renderer));
-    const std::vector<ColourPoint> colours = plainColours();
-    RenderTransferFunctionDesc desc;
-    desc.opacity = {volume.points, volume.domain};
-    desc.colours = colours;
-    desc.step = *std::ranges::min_element(volume.data.grid.spacing) / 2;
-    VOXTACT_TRY(put(RenderTransferFunction::upload(*picture.renderer, queue, desc), picture.function));
-    VOXTACT_TRY(put(RenderBricks::create(*picture.renderer, *volume.device), picture.bricks));
-    VOXTACT_TRY(put(MeshNormals::upload(*picture.renderer, queue, scene.mesh->data.view()), picture.normals));
-    VOXTACT_TRY(put(RenderTargets::create(*picture.renderer, extent), picture.targets));
-    return put(makeImage(session.context.impl(),
-                         {.type = VK_IMAGE_TYPE_2D,
-                          .viewType = VK_IMAGE_VIEW_TYPE_2D,
-                          .format = RendererDesc{}.colorFormat,
-                          .extent = {extent.width, extent.height, 1},
-                          .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT},
-                         "the frame", "frame"),
-               picture.image);
-}
-
 /// What is timed of each method.
 constexpr std::array<FramePart, 2> kFrameParts{FramePart::Detection, FramePart::Both};
 
 /// A scene on the device and the host, with what was verified of it.
 struct PaperWork {
     const PaperInput& input;
-    std::vector<NamedCounts> counts;     ///< by method
-    std::vector<CountingMethod> methods; ///< theirs
-    std::size_t firstRow;                ///< theirs follow each other
+    std::vector<NamedCounts> counts; ///< by method
+    std::size_t firstRow;            ///< theirs follow each other
+
+    [[nodiscard]] CountingMethod methodOf(std::size_t number) const {
+        return *countingMethodFromName(counts[number].method);
+    }
 };
 
 /// Frames as an embedder makes them: a picture and the detection in one command buffer, with the same camera, volume
@@ -100,13 +68,20 @@ struct PaperFrames {
     const PaperWork& work;
     const device::Session& session = run.session;
     const Scene& scene = work.input.scene;
-    PictureParts picture{};
+    std::optional<Renderer> renderer{};
+    std::optional<RenderTransferFunction> function{};
+    std::optional<RenderBricks> bricks{};
+    std::optional<MeshNormals> normals{};
+    std::optional<RenderTargets> targets{};
+    std::optional<Image> image{}; ///< that is drawn to
     std::optional<Results> results{};
     std::map<CountingMethod, Detector> detectors{};
     Engine host{};
     std::optional<device::TimedCommands> commands{}; ///< ends first, and waits then
 
+    /// The parts of the scene must be ready, the volume with bricks.
     Result<void> create();
+    Result<void> createPicture();
     /// Makes what a method needs; frames with it may then be made.
     Result<void> add(CountingMethod method);
     /// One frame, with the mesh at a pose. The method is not looked at where nothing is detected.
@@ -127,19 +102,19 @@ struct PaperFrames {
 Result<void> PaperFrames::cmdPicture(VkCommandBuffer buffer, const Mat4& pose) {
     voxtact::Scene drawn;
     drawn.volume = &*scene.volume->device;
-    drawn.transferFunction = &*picture.function;
-    drawn.bricks = &*picture.bricks;
+    drawn.transferFunction = &*function;
+    drawn.bricks = &*bricks;
     drawn.mesh = &*scene.mesh->device;
-    drawn.normals = &*picture.normals;
+    drawn.normals = &*normals;
     drawn.world_from_object = pose;
     drawn.clip_from_world = scene.view.clip_from_world;
     Target where;
-    where.view = picture.image->view.get();
-    where.extent = picture.targets->extent();
-    where.targets = &*picture.targets;
+    where.view = image->view.get();
+    where.extent = targets->extent();
+    where.targets = &*targets;
     where.timestamps = commands->timestamps();
     where.firstTimestamp = kPictureBegins;
-    return picture.renderer->cmdRender(buffer, drawn, where);
+    return renderer->cmdRender(buffer, drawn, where);
 }
 
 Result<void> PaperFrames::record(FramePart part, CountingMethod method, const Mat4& pose) {
@@ -147,7 +122,7 @@ Result<void> PaperFrames::record(FramePart part, CountingMethod method, const Ma
     VOXTACT_TRY(buffer);
     commands->cmdStamp(kFrameBegins);
     // What the last frame drew is lost, and was read by nobody.
-    barrier(session.context.impl(), *buffer, picture.image->image.get(),
+    barrier(session.context.impl(), *buffer, image->image.get(),
             {VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, 0, VK_IMAGE_LAYOUT_UNDEFINED}, kDrawnTo);
     if (part != FramePart::Detection) {
         VOXTACT_TRY(cmdPicture(*buffer, pose));
@@ -182,8 +157,32 @@ Result<void> PaperFrames::readTimes(FramePart part, bool onDevice, FrameSample& 
                                                 : put(commands->between(kFrameBegins, kFrameEnds), sample.gpu);
 }
 
+Result<void> PaperFrames::createPicture() {
+    const VolumePart& volume = *scene.volume;
+    const QueueAccess queue = session.device.queueAccess();
+    const VkExtent2D extent{scene.view.width, scene.view.height};
+    VOXTACT_TRY(put(Renderer::create(session.context), renderer));
+    const std::vector<ColourPoint> colours = plainColours();
+    RenderTransferFunctionDesc desc;
+    desc.opacity = {volume.points, volume.domain};
+    desc.colours = colours;
+    desc.step = *std::ranges::min_element(volume.data.grid.spacing) / 2;
+    VOXTACT_TRY(put(RenderTransferFunction::upload(*renderer, queue, desc), function));
+    VOXTACT_TRY(put(RenderBricks::create(*renderer, *volume.device), bricks));
+    VOXTACT_TRY(put(MeshNormals::upload(*renderer, queue, scene.mesh->data.view()), normals));
+    VOXTACT_TRY(put(RenderTargets::create(*renderer, extent), targets));
+    return put(makeImage(session.context.impl(),
+                         {.type = VK_IMAGE_TYPE_2D,
+                          .viewType = VK_IMAGE_VIEW_TYPE_2D,
+                          .format = RendererDesc{}.colorFormat,
+                          .extent = {extent.width, extent.height, 1},
+                          .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT},
+                         "the frame", "frame"),
+               image);
+}
+
 Result<void> PaperFrames::create() {
-    VOXTACT_TRY(makePicture(session, scene, picture));
+    VOXTACT_TRY(createPicture());
     VOXTACT_TRY(put(Results::create(session.context, {.maxPairs = 1,
                                                       .readBack = true,
                                                       .timestamps = session.device.hasTimestamps(),
@@ -256,9 +255,8 @@ Result<std::vector<NamedCounts>> verify(const PaperRun& run, const PaperInput& i
 }
 
 PaperWork addRows(const PaperInput& input, std::vector<NamedCounts> counts, PaperResult& result) {
-    PaperWork work{input, std::move(counts), {}, result.rows.size()};
+    PaperWork work{input, std::move(counts), result.rows.size()};
     for (const NamedCounts& by : work.counts) {
-        work.methods.push_back(*countingMethodFromName(by.method));
         const auto sum = static_cast<double>(std::accumulate(by.counts.begin(), by.counts.end(), 0ULL));
         const auto hits = std::ranges::count_if(by.counts, [](std::uint64_t count) { return count > 0; });
         result.rows.push_back({.scene = result.scenes.size(),
@@ -284,10 +282,9 @@ void keepFrame(FramePart part, const FrameSample& sample, PaperRow& row) {
 
 /// A frame without detection. It is the same by every method, so that a round takes one for all of them.
 Result<double> PaperFrames::render(const Turn& turn) {
-    const Result<FrameSample> sample =
-        take(FramePart::Rendering, work.methods.front(), scene.poses[poseOf(turn.round)]);
+    const Result<FrameSample> sample = take(FramePart::Rendering, work.methodOf(0), scene.poses[poseOf(turn.round)]);
     VOXTACT_TRY(sample);
-    for (std::size_t method = 0; turn.round > 0 && method < work.methods.size(); ++method) {
+    for (std::size_t method = 0; turn.round > 0 && method < work.counts.size(); ++method) {
         keepFrame(FramePart::Rendering, *sample, run.result.rows[work.firstRow + method]);
     }
     return sample->wall;
@@ -300,7 +297,7 @@ Result<double> PaperFrames::detect(std::size_t method, const Turn& turn) {
     double wall = 0;
     for (std::size_t i = 0; i < kFrameParts.size(); ++i) {
         const FramePart part = kFrameParts.at(turn.backwards ? kFrameParts.size() - 1 - i : i);
-        const Result<FrameSample> sample = take(part, work.methods[method], scene.poses[pose]);
+        const Result<FrameSample> sample = take(part, work.methodOf(method), scene.poses[pose]);
         VOXTACT_TRY(sample);
         if (sample->count.value_or(verified) != verified) {
             run.disagree(concat(work.input.facts.name, ", pose ", pose, ": ", work.counts[method].method,
@@ -321,9 +318,9 @@ Result<void> timeFrames(const PaperRun& run, double seconds, const PaperWork& wo
     PaperFrames frames{run, work};
     VOXTACT_TRY(frames.create());
     std::vector<Timed> things;
-    for (std::size_t method = 0; method < work.methods.size(); ++method) {
-        VOXTACT_TRY(frames.add(work.methods[method]));
-        if (method == work.methods.size() / 2) {
+    for (std::size_t method = 0; method < work.counts.size(); ++method) {
+        VOXTACT_TRY(frames.add(work.methodOf(method)));
+        if (method == work.counts.size() / 2) {
             things.push_back({.take = [&frames](const Turn& turn) { return frames.render(turn); }});
         }
         things.push_back({.take = [&frames, method](const Turn& turn) { return frames.detect(method, turn); }});

@@ -88,11 +88,6 @@ Row paperRow(const PaperRow& row, const PaperClock& clock, const PaperResult& re
         .add("overhead %", overhead.empty() ? std::nullopt : std::optional(overheadText(overhead)));
 }
 
-bool hasTimes(const PaperClock& clock, const PaperResult& result) {
-    return std::ranges::any_of(result.rows,
-                               [&](const PaperRow& row) { return !(row.*clock.columns).rendering.empty(); });
-}
-
 Row rowOf(const PaperScene& scene) {
     return Row()
         .add("scene", scene.name)
@@ -159,7 +154,8 @@ struct Section {
 /// Tables like the paper's.
 void addPaperTables(const PaperResult& result, std::vector<Section>& sections) {
     for (const PaperClock& clock : kPaperClocks) {
-        if (hasTimes(clock, result)) {
+        const auto isTimed = [&](const PaperRow& row) { return !(row.*clock.columns).rendering.empty(); };
+        if (std::ranges::any_of(result.rows, isTimed)) {
             sections.push_back(
                 {std::string(clock.title) +
                      ", ms: medians, with the 10th and 90th percentile; of the overhead, the "
@@ -173,7 +169,7 @@ void addPaperTables(const PaperResult& result, std::vector<Section>& sections) {
 void addOthers(const PaperResult& result, std::vector<Section>& sections) {
     std::string title = "The paper's own tables, average ms a frame as printed";
     for (std::size_t i = 0; i < published::kHardware.size(); ++i) {
-        title += "; Table " + std::to_string(i + 1) + ": " + published::kHardware.at(i);
+        title += concat("; Table ", i + 1, ": ", published::kHardware.at(i));
     }
     sections.push_back({title, tableOfAll(published::kTables)});
     if (!result.series.empty()) {
@@ -181,9 +177,8 @@ void addOthers(const PaperResult& result, std::vector<Section>& sections) {
                             seriesTable(result.series)});
     }
     if (!result.polygons.empty()) {
-        sections.push_back({"Which of " + std::to_string(result.polygonTriangles) + " triangles touch, in " +
-                                result.scenes.front().name + ", on " + std::to_string(result.polygonPoses) +
-                                " poses together",
+        sections.push_back({concat("Which of ", result.polygonTriangles, " triangles touch, in ",
+                                   result.scenes.front().name, ", on ", result.polygonPoses, " poses together"),
                             tableOfAll(result.polygons)});
     }
     if (!result.integration.empty()) {
@@ -205,16 +200,6 @@ void write(std::ostream& out, io::Format format, const Section& section) {
     for (std::string line; std::getline(text, line);) {
         out << "# " << line << '\n';
     }
-}
-
-std::vector<io::NamedCells> fullRows(const PaperResult& result) {
-    std::vector<io::NamedCells> rows;
-    for (const PaperRow& row : result.rows) {
-        for (const PaperClock& clock : kPaperClocks) {
-            rows.push_back(rowOf(row, clock, result).cells());
-        }
-    }
-    return rows;
 }
 
 /// In another order than its row.
@@ -278,12 +263,17 @@ void writePaper(std::ostream& out, io::Format format, const PaperResult& result)
         return;
     }
     std::vector<Section> sections{
-        {"Scenes, frames of " + std::to_string(result.width) + "x" + std::to_string(result.height),
-         tableOfAll(result.scenes)}};
+        {concat("Scenes, frames of ", result.width, "x", result.height), tableOfAll(result.scenes)}};
     if (format == io::Format::Text) {
         addPaperTables(result, sections);
     } else {
-        io::writeTable(out, format, tableOf(fullRows(result)));
+        std::vector<io::NamedCells> rows;
+        for (const PaperRow& row : result.rows) {
+            for (const PaperClock& clock : kPaperClocks) {
+                rows.push_back(rowOf(row, clock, result).cells());
+            }
+        }
+        io::writeTable(out, format, tableOf(std::move(rows)));
     }
     addOthers(result, sections);
     for (const Section& section : sections) {

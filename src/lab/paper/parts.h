@@ -44,11 +44,4 @@ struct PaperInput {
 [[nodiscard]] Result<void> measurePaperScene(const PaperRun& run, double seconds, const PaperInput& input);
 [[nodiscard]] std::uint64_t paperSceneSteps(const PaperSettings& settings);
 
-/// What grows from point to point, which triangles touch, and the making of the pre-integrated table. `v1s1` is the
-/// first scene, with the numbers of its poses; its mesh is the builtin scalpel. Fills `series`, `polygons`,
-/// `polygonTriangles`, `polygonPoses` and `integration` of `result`, and adds to its notes. Where methods disagree it
-/// fills `disagreement`, unless there is one already, and goes no further. The samples are cut to fit in `seconds`.
-[[nodiscard]] Result<void> runPaperSweeps(const PaperRun& run, double seconds, const Scene& v1s1);
-[[nodiscard]] std::uint64_t paperSweepSteps(const PaperSettings& settings);
-
 } // namespace voxtact::lab

@@ -9,6 +9,7 @@
 #include "voxtact/looks.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace voxtact::lab {
@@ -53,46 +54,33 @@ constexpr std::uint32_t kTries = 64;
 /// Of the side of a volume: how far beyond it randomPoses() puts a vertex, and a little.
 constexpr double kBeyond = 0.11;
 
-struct LoadedVolume {
-    std::shared_ptr<VolumePart> part = std::make_shared<VolumePart>();
-    double share = 0; ///< of the voxels that are opaque
+/// Where a volume or mesh of the paper comes from.
+struct Source {
+    std::string path; ///< or builtin:NAME
+    std::string name; ///< a file's alone
+    bool isFile = false;
 };
 
-/// The file of a volume or mesh, if --data has it.
-std::optional<fs::path> fileOf(const PaperSettings& settings, const char* file) {
-    if (settings.data.empty() || file == nullptr) {
-        return std::nullopt;
-    }
+/// The file, if --data has it.
+Source sourceOf(const PaperSettings& settings, const char* file, const std::string& builtin) {
+    const fs::path path = settings.data.empty() || file == nullptr ? fs::path() : settings.data / file;
     std::error_code ignored;
-    const fs::path path = settings.data / file;
-    return fs::exists(path, ignored) ? std::optional(path) : std::nullopt;
+    return !path.empty() && fs::exists(path, ignored) ? Source{path.string(), path.filename().string(), true}
+                                                      : Source{builtin, builtin};
 }
 
 Result<void> checkData(const PaperSettings& settings) {
-    if (settings.data.empty()) {
+    const char* const files[] = {kVolumes[0].file, kVolumes[1].file, kMeshes[1].file};
+    const auto isThere = [&](const char* file) { return sourceOf(settings, file, {}).isFile; };
+    if (settings.data.empty() || std::ranges::any_of(files, isThere)) {
         return {};
     }
-    const bool any =
-        fileOf(settings, kVolumes[0].file) || fileOf(settings, kVolumes[1].file) || fileOf(settings, kMeshes[1].file);
-    return any ? Result<void>()
-               : Error{ErrorCode::File, 0,
-                       "--data " + settings.data.string() + ": none of " + kVolumes[0].file + ", " + kVolumes[1].file +
-                           ", " + kMeshes[1].file + " is there"};
+    return Error{
+        ErrorCode::File, 0,
+        concat("--data ", settings.data.string(), ": none of ", files[0], ", ", files[1], ", ", files[2], " is there")};
 }
 
 using Histogram = std::array<std::uint64_t, 256>;
-
-Histogram histogramOf(const VolumeData& volume) {
-    Histogram histogram{};
-    for (const std::byte voxel : volume.voxels) {
-        ++histogram[static_cast<std::size_t>(voxel)];
-    }
-    return histogram;
-}
-
-std::vector<ControlPoint> ramp(double begin, double width) {
-    return {{begin, 0}, {begin + width, 1}};
-}
 
 /// Of all voxels, those that are opaque.
 Result<double> opaqueShare(const Histogram& histogram, std::span<const ControlPoint> points) {
@@ -108,56 +96,52 @@ Result<double> opaqueShare(const Histogram& histogram, std::span<const ControlPo
     return static_cast<double>(opaque) / static_cast<double>(all);
 }
 
-/// A file's own ramp; a builtin's begins where the share is nearest to that of the file.
-Result<void> placeRamp(const PaperVolume& volume, bool builtin, LoadedVolume& loaded) {
-    const Histogram histogram = histogramOf(loaded.part->data);
+/// A file's own ramp; a builtin's begins where the share of opaque voxels is nearest to that of the file. Returns it.
+Result<double> placeRamp(const PaperVolume& volume, bool builtin, VolumePart& part) {
+    Histogram histogram{};
+    for (const std::byte voxel : part.data.voxels) {
+        ++histogram[static_cast<std::size_t>(voxel)];
+    }
     const double first = builtin ? 0 : volume.rampBegin;
     const double last = builtin ? 255 - volume.rampWidth : volume.rampBegin;
     double nearest = 2;
     for (double begin = first; begin <= last; ++begin) {
-        std::vector<ControlPoint> points = ramp(begin, volume.rampWidth);
+        std::vector<ControlPoint> points{{begin, 0}, {begin + volume.rampWidth, 1}};
         const Result<double> share = opaqueShare(histogram, points);
         VOXTACT_TRY(share);
-        if (std::abs(*share - volume.share) < nearest) {
-            nearest = std::abs(*share - volume.share);
-            loaded.part->points = std::move(points);
-            loaded.share = *share;
+        if (std::abs(*share - volume.share) < std::abs(nearest - volume.share)) {
+            nearest = *share;
+            part.points = std::move(points);
         }
     }
-    return {};
+    return nearest;
 }
 
-Result<LoadedVolume> loadPaperVolume(const PaperSettings& settings, const PaperVolume& volume) {
-    const std::optional<fs::path> file = fileOf(settings, volume.file);
-    const std::string source =
-        file ? file->string() : volume.builtin + (":" + std::to_string(volume.voxels[0] / settings.scale));
-    Result<VolumeData> data = settings.load.volume(source);
-    VOXTACT_TRY(data);
-    if (file && (data->grid.size != volume.voxels || data->type != ScalarType::UInt8)) {
+/// Returns the share of its voxels that are opaque.
+Result<double> loadPaperVolume(const PaperSettings& settings, const PaperVolume& volume, VolumePart& part) {
+    const Source source =
+        sourceOf(settings, volume.file, concat(volume.builtin, ":", volume.voxels[0] / settings.scale));
+    VOXTACT_TRY(put(settings.load.volume(source.path), part.data));
+    if (source.isFile && (part.data.grid.size != volume.voxels || part.data.type != ScalarType::UInt8)) {
         return Error{ErrorCode::Format, 0,
-                     "'" + source + "' has " + sizeText(data->grid.size) + " voxels of " + toString(data->type) +
-                         "; the paper's scenes need " + sizeText(volume.voxels) + " of uint8"};
+                     concat("'", source.path, "' has ", sizeText(part.data.grid.size), " voxels of ",
+                            toString(part.data.type), "; the paper's scenes need ", sizeText(volume.voxels),
+                            " of uint8")};
     }
-    LoadedVolume loaded;
-    loaded.part->name = file ? file->filename().string() : source;
-    loaded.part->data = std::move(*data);
-    loaded.part->domain = TransferFunctionDesc{}.domain;
-    VOXTACT_TRY(placeRamp(volume, !file, loaded));
-    return loaded;
+    part.name = source.name;
+    part.domain = TransferFunctionDesc{}.domain;
+    return placeRamp(volume, !source.isFile, part);
 }
 
-Result<std::shared_ptr<MeshPart>> loadPaperMesh(const PaperSettings& settings, const PaperMesh& mesh) {
-    const std::optional<fs::path> file = fileOf(settings, mesh.file);
-    const std::string source = file ? file->string() : mesh.builtin;
-    Result<MeshData> data = settings.load.mesh(source);
-    VOXTACT_TRY(data);
-    if (data->indices.size() != std::size_t{3} * mesh.triangles) {
-        return Error{ErrorCode::Format, 0,
-                     "'" + source + "' has " + std::to_string(data->indices.size() / 3) +
-                         " triangles; the paper's scenes need " + std::to_string(mesh.triangles)};
-    }
-    return std::make_shared<MeshPart>(
-        MeshPart{.name = file ? file->filename().string() : source, .data = std::move(*data)});
+Result<void> loadPaperMesh(const PaperSettings& settings, const PaperMesh& mesh, MeshPart& part) {
+    const Source source = sourceOf(settings, mesh.file, mesh.builtin);
+    VOXTACT_TRY(put(settings.load.mesh(source.path), part.data));
+    part.name = source.name;
+    return part.triangles() == mesh.triangles && part.data.indices.size() % 3 == 0
+               ? Result<void>()
+               : Error{ErrorCode::Format, 0,
+                       concat("'", source.path, "' has ", part.triangles(), " triangles; the paper's scenes need ",
+                              mesh.triangles)};
 }
 
 /// From the front; deep enough for the mesh at every pose that can be.
@@ -177,27 +161,22 @@ Result<View> cameraOf(const PaperSettings& settings, const Grid& grid, const Mes
                 settings.size.height};
 }
 
-Result<PaperInput> makeInput(const PaperSettings& settings, std::string name, const LoadedVolume& volume,
-                             const std::shared_ptr<MeshPart>& mesh) {
-    const VolumePart& part = *volume.part;
-    PaperInput input;
-    input.scene.volume = volume.part;
-    input.scene.mesh = mesh;
-    input.facts = {.name = std::move(name),
-                   .volume = part.name,
-                   .mesh = mesh->name,
-                   .voxels = part.data.grid.size,
-                   .voxelType = toString(part.data.type),
-                   .triangles = mesh->triangles(),
-                   .opaqueShare = volume.share,
-                   .opacity = opacityText(part.points),
-                   .poses = settings.poses,
-                   .step = *std::ranges::min_element(part.data.grid.spacing) / 2};
-    Result<View> view = cameraOf(settings, part.data.grid, mesh->data);
-    VOXTACT_TRY(view);
-    input.scene.view = *view;
-    VOXTACT_TRY(chooseTouching(settings.poses, settings.seed, input.facts.name, input.scene));
-    return input;
+/// Of a scene whose parts are loaded; `share` of the voxels are opaque.
+Result<PaperInput> makeInput(const PaperSettings& settings, std::string name, double share, Scene scene) {
+    const VolumePart& volume = *scene.volume;
+    VOXTACT_TRY(put(cameraOf(settings, volume.data.grid, scene.mesh->data), scene.view));
+    VOXTACT_TRY(chooseTouching(settings.poses, settings.seed, name, scene));
+    return PaperInput{{.name = std::move(name),
+                       .volume = volume.name,
+                       .mesh = scene.mesh->name,
+                       .voxels = volume.data.grid.size,
+                       .voxelType = toString(volume.data.type),
+                       .triangles = scene.mesh->triangles(),
+                       .opaqueShare = share,
+                       .opacity = opacityText(volume.points),
+                       .poses = settings.poses,
+                       .step = *std::ranges::min_element(volume.data.grid.spacing) / 2},
+                      std::move(scene)};
 }
 
 } // namespace
@@ -213,10 +192,8 @@ Result<void> chooseTouching(std::uint32_t count, std::uint64_t seed, const std::
     std::uint64_t end = count;
     for (std::uint64_t tried = 0; scene.poses.size() < count; tried = end, end = std::min(2 * end, most)) {
         if (tried == most) {
-            return refuse("--number: of " + std::to_string(tried) + " random poses of " + name + " only " +
-                          std::to_string(scene.poses.size()) + " touch in a view of " +
-                          std::to_string(scene.view.width) + "x" + std::to_string(scene.view.height) +
-                          " pixels (--size)");
+            return refuse(concat("--number: of ", tried, " random poses of ", name, " only ", scene.poses.size(),
+                                 " touch in a view of ", scene.view.width, "x", scene.view.height, " pixels (--size)"));
         }
         const std::vector<Mat4> all =
             randomPoses(scene.volume->data.grid, scene.mesh->data.view(), static_cast<std::uint32_t>(end), seed);
@@ -235,19 +212,19 @@ Result<void> chooseTouching(std::uint32_t count, std::uint64_t seed, const std::
 
 Result<std::vector<PaperInput>> loadPaperScenes(const PaperSettings& settings) {
     VOXTACT_TRY(checkData(settings));
-    std::vector<std::shared_ptr<MeshPart>> meshes;
-    for (const PaperMesh& mesh : kMeshes) {
-        Result<std::shared_ptr<MeshPart>> loaded = loadPaperMesh(settings, mesh);
-        VOXTACT_TRY(loaded);
-        meshes.push_back(std::move(*loaded));
+    std::array<std::shared_ptr<MeshPart>, kMeshes.size()> meshes;
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+        meshes[i] = std::make_shared<MeshPart>();
+        VOXTACT_TRY(loadPaperMesh(settings, kMeshes[i], *meshes[i]));
     }
     std::vector<PaperInput> inputs;
     for (const PaperVolume& volume : kVolumes) {
-        const Result<LoadedVolume> loaded = loadPaperVolume(settings, volume);
-        VOXTACT_TRY(loaded);
+        const auto part = std::make_shared<VolumePart>();
+        const Result<double> share = loadPaperVolume(settings, volume, *part);
+        VOXTACT_TRY(share);
         for (std::size_t i = 0; i < meshes.size(); ++i) {
-            Result<PaperInput> input =
-                makeInput(settings, std::string(volume.name) + kMeshes[i].name, *loaded, meshes[i]);
+            Result<PaperInput> input = makeInput(settings, std::string(volume.name) + kMeshes[i].name, *share,
+                                                 {part, meshes[i], {}, {}, {}, {}});
             VOXTACT_TRY(input);
             inputs.push_back(std::move(*input));
         }

@@ -94,10 +94,10 @@ void addPercents(const PaperResult& result, std::vector<std::string>& sentences)
         for (const PaperClock& clock : kPaperClocks) {
             const auto found = extremes(result, [&](const PaperRow& row) { return way.percent(row.*clock.columns); });
             if (found) {
-                sentences.push_back(std::string(way.begin) + " " + percentText(found->first.median) + " (" +
-                                    nameOf(*found->first.row, result) + ") to " + percentText(found->second.median) +
-                                    " (" + nameOf(*found->second.row, result) + "), " + clock.words + ", medians" +
-                                    way.end);
+                const auto& [least, most] = *found;
+                sentences.push_back(concat(way.begin, " ", percentText(least.median), " (", nameOf(*least.row, result),
+                                           ") to ", percentText(most.median), " (", nameOf(*most.row, result), "), ",
+                                           clock.words, ", medians", way.end));
             }
         }
     }
@@ -116,13 +116,13 @@ void addIntervals(const PaperResult& result, std::vector<std::string>& sentences
         const bool timed = std::ranges::any_of(
             result.rows, [&](const PaperRow& row) { return !overheadPercent(row.*clock.columns).empty(); });
         if (timed && all == 0) {
-            sentences.push_back("no interval (of 95 % or more) of what detection adds is known, " +
-                                std::string(clock.words) + ": too few samples");
+            sentences.push_back(concat("no interval (of 95 % or more) of what detection adds is known, ", clock.words,
+                                       ": too few samples"));
         }
         if (all > 0) {
-            sentences.push_back("in " + grouped(apart) + " of " + grouped(all) +
-                                " rows the interval (of 95 % or more) of what detection adds leaves out 0, " +
-                                clock.words);
+            sentences.push_back(concat("in ", grouped(apart), " of ", grouped(all),
+                                       " rows the interval (of 95 % or more) of what detection adds leaves out 0, ",
+                                       clock.words));
         }
     }
 }
@@ -139,15 +139,15 @@ void addPairs(const PaperResult& result, std::vector<std::string>& sentences) {
     const std::string there = "; published: " + grouped(static_cast<std::uint64_t>(published::kPairsPerSecond)) +
                               " pairs a second" + kElsewhere;
     if (found && found->first.median > 0) {
-        sentences.push_back("the fastest to count one pair, submitted and waited for alone, is " +
-                            nameOf(*found->first.row, result) + ": " + shortNumber(found->first.median) + " ms, " +
-                            pairsPerSecond(found->first.median) + there);
+        sentences.push_back(concat("the fastest to count one pair, submitted and waited for alone, is ",
+                                   nameOf(*found->first.row, result), ": ", shortNumber(found->first.median), " ms, ",
+                                   pairsPerSecond(found->first.median), there));
     }
     const Series* const best = fastestOf(result.series, [](const Series&) { return true; });
     if (best != nullptr) {
-        sentences.push_back("the fastest in batches is " + best->method + " with " + grouped(best->batch) +
-                            " pairs a submission (" + toString(best->mode) +
-                            "): " + pairsPerSecond(1000 / *best->pairsPerSecond()) + there);
+        sentences.push_back(concat("the fastest in batches is ", best->method, " with ", grouped(best->batch),
+                                   " pairs a submission (", toString(best->mode),
+                                   "): ", pairsPerSecond(1000 / *best->pairsPerSecond()), there));
     }
 }
 
@@ -156,25 +156,22 @@ void addPolygons(const PaperResult& result, std::vector<std::string>& sentences)
         if (!way.unchecked.empty() || way.wall.empty()) {
             continue;
         }
-        sentences.push_back("which of " + grouped(result.polygonTriangles) + " triangles touch on " +
-                            std::to_string(result.polygonPoses) + " poses, by the way " + way.name + ": " +
-                            shortNumber(medianOf(way.wall)) + " ms a pair by wall clock" +
-                            (way.queries ? ", " + grouped(*way.queries) + " queries in all" : "") + "; " +
-                            grouped(way.triangles) + " found in all, " + grouped(way.missed) +
-                            " of those that certainly touch are missed");
+        sentences.push_back(
+            concat("which of ", grouped(result.polygonTriangles), " triangles touch on ", result.polygonPoses,
+                   " poses, by the way ", way.name, ": ", shortNumber(medianOf(way.wall)), " ms a pair by wall clock",
+                   way.queries ? ", " + grouped(*way.queries) + " queries in all" : "", "; ", grouped(way.triangles),
+                   " found in all, ", grouped(way.missed), " of those that certainly touch are missed"));
     }
 }
 
 void addIntegration(const PaperResult& result, std::vector<std::string>& sentences) {
-    for (const IntegrationPoint& point : result.integration) {
-        if (point.entries != kPublishedEntries || point.wall.empty()) {
-            continue;
-        }
-        const std::string side = std::to_string(point.entries);
-        sentences.push_back("the pre-integrated table of " + side + "x" + side + " entries is made in " +
-                            (point.gpu.empty() ? "" : shortNumber(medianOf(point.gpu)) + " ms by GPU timestamps, ") +
-                            shortNumber(medianOf(point.wall)) + " ms by wall clock; published: " +
-                            number(published::kIntegrationMilliseconds) + " ms" + kElsewhere);
+    const auto found = std::ranges::find(result.integration, kPublishedEntries, &IntegrationPoint::entries);
+    if (found != result.integration.end() && !found->wall.empty()) {
+        sentences.push_back(
+            concat("the pre-integrated table of ", found->entries, "x", found->entries, " entries is made in ",
+                   found->gpu.empty() ? "" : shortNumber(medianOf(found->gpu)) + " ms by GPU timestamps, ",
+                   shortNumber(medianOf(found->wall)),
+                   " ms by wall clock; published: ", number(published::kIntegrationMilliseconds), " ms", kElsewhere));
     }
 }
 

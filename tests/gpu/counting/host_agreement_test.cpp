@@ -5,7 +5,7 @@
 
 #include "core/method/method_table.h"
 #include "cpu/scenes/random_scene.h"
-#include "lab/engines/trace.h"
+#include "lab/engines/localize.h"
 #include "oracle/oracle.h"
 #include "support/scenes.h"
 #include "voxtact/cpu.h"

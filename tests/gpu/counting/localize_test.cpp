@@ -5,7 +5,6 @@
 #include "cpu/certified/brick_occupancy.h"
 #include "cpu/scenes/random_scene.h"
 #include "lab/engines/localize.h"
-#include "lab/engines/trace.h"
 #include "oracle/oracle.h"
 #include "support/scenes.h"
 #include "voxtact/io.h"

@@ -8,7 +8,7 @@
 #include "few_kinds.h"
 #include "gpu/context_impl.h"
 #include "gpu/submit.h"
-#include "lab/engines/trace.h"
+#include "lab/engines/localize.h"
 #include "support/contact_scenes.h"
 #include "support/scenes.h"
 #include "voxtact/cpu.h"
