@@ -66,22 +66,23 @@ DetectorDesc methodOf(CountingMethod method) {
 }
 
 /// Projections of the host, and then outputs in two of them.
-void addHostOutputs(EngineList& engines) {
+Result<void> addHostOutputs(Engines& engines) {
     constexpr std::array kOrder{Projection::View, Projection::Conservative, Projection::TwoView,
                                 Projection::DominantAxis};
     for (const Projection projection : kOrder) {
-        engines.add(makeHostEngine({.projection = projection}));
+        VOXTACT_TRY(add(engines, makeHostEngine({.projection = projection})));
     }
     for (const std::size_t bare : {std::size_t{0}, std::size_t{1}}) {
         for (const Outputs& outputs : oneOutput()) {
-            engines.add(makeHostEngine({.projection = kOrder.at(bare), .outputs = outputs}), bare, true);
+            VOXTACT_TRY(add(engines, makeHostEngine({.projection = kOrder.at(bare), .outputs = outputs}), bare, true));
         }
     }
+    return {};
 }
 
 /// Projections of a method of the device, and then the outputs in one of them.
-void addDeviceOutputs(const device::Session& session, CountingMethod method, Projection withOutputs,
-                      EngineList& engines) {
+Result<void> addDeviceOutputs(const device::Session& session, CountingMethod method, Projection withOutputs,
+                              Engines& engines) {
     DetectorDesc desc = methodOf(method);
     const std::size_t view = engines.size();
     std::size_t bare = view;
@@ -89,62 +90,66 @@ void addDeviceOutputs(const device::Session& session, CountingMethod method, Pro
         if (can(&session, method, projection)) {
             bare = projection == withOutputs ? engines.size() : bare;
             desc.projection = projection;
-            engines.add(makeBlockingEngine(session, desc), view);
+            VOXTACT_TRY(add(engines, makeBlockingEngine(session, desc), view));
         }
     }
     desc.projection = withOutputs;
     for (const Outputs& outputs : oneOutput()) {
         desc.outputs = outputs;
-        engines.add(makeBlockingEngine(session, desc), bare, true);
+        VOXTACT_TRY(add(engines, makeBlockingEngine(session, desc), bare, true));
     }
+    return {};
 }
 
 /// A method of the device, polled and waited for; nothing: an empty submission.
-void addTicks(const device::Session& session, const std::optional<DetectorDesc>& desc, EngineList& engines) {
+Result<void> addTicks(const device::Session& session, const std::optional<DetectorDesc>& desc, Engines& engines) {
     for (const Awaiting awaiting : {Awaiting::Poll, Awaiting::Wait}) {
-        engines.add(makeTickEngine(session, desc, awaiting));
+        VOXTACT_TRY(add(engines, makeTickEngine(session, desc, awaiting)));
     }
+    return {};
 }
 
-void addDeviceTicks(const device::Session& session, EngineList& engines) {
+Result<void> addDeviceTicks(const device::Session& session, Engines& engines) {
     for (const CountingMethod method : countingMethods()) {
         for (DetectorDesc desc : askedOf(methodOf(method))) {
             if (rowOf(method).host || !can(&session, method, desc.projection)) {
                 continue;
             }
-            addTicks(session, desc, engines);
+            VOXTACT_TRY(addTicks(session, desc, engines));
             if (rowOf(method).coverage == Coverage::Computed) {
                 desc.devicePoses = true;
-                addTicks(session, desc, engines);
+                VOXTACT_TRY(addTicks(session, desc, engines));
             }
         }
     }
+    return {};
 }
 
 /// The first is the host's yes or no on one thread, the second the host's count.
-void addCertified(const BenchParts& parts, EngineList& engines) {
+Result<void> addCertified(const BenchParts& parts, Engines& engines) {
     auto host = askedOf(cpu::DetectorDesc{});
     cpu::DetectorDesc alone = host[0];
     alone.threads = 1;
     for (const cpu::DetectorDesc& desc : {alone, host[1], host[0], host[2]}) {
-        engines.add(makeHostEngine(desc));
+        VOXTACT_TRY(add(engines, makeHostEngine(desc)));
     }
     const auto computed = askedOf(methodOf(CountingMethod::Compute));
     for (const DetectorDesc& desc : {computed[0], computed[1], methodOf(CountingMethod::Query)}) {
         if (can(parts.session, desc.method, desc.projection)) {
-            engines.add(makeBlockingEngine(*parts.session, desc));
+            VOXTACT_TRY(add(engines, makeBlockingEngine(*parts.session, desc)));
         }
     }
     for (const FclScalar scalar : {FclScalar::Float, FclScalar::Double}) {
         if (parts.volume.fcl != nullptr) {
-            engines.add(makeFclEngine(parts.volume, parts.mesh, scalar));
+            VOXTACT_TRY(add(engines, makeFclEngine(parts.volume, parts.mesh, scalar)));
         }
     }
+    return {};
 }
 
 /// The first is the host's count in the view, the second the host's in the projection conservative.
-void addOutputs(const BenchParts& parts, EngineList& engines) {
-    addHostOutputs(engines);
+Result<void> addOutputs(const BenchParts& parts, Engines& engines) {
+    VOXTACT_TRY(addHostOutputs(engines));
     constexpr std::pair<CountingMethod, Projection> kOfDevice[] = {
         {CountingMethod::Query, Projection::View},
         {CountingMethod::Atomic, Projection::View},
@@ -152,53 +157,56 @@ void addOutputs(const BenchParts& parts, EngineList& engines) {
     };
     for (const auto& [method, withOutputs] : kOfDevice) {
         if (can(parts.session, method, withOutputs)) {
-            addDeviceOutputs(*parts.session, method, withOutputs, engines);
+            VOXTACT_TRY(addDeviceOutputs(*parts.session, method, withOutputs, engines));
         }
     }
+    return {};
 }
 
 /// An empty submission, the host, and every method of the device, polled and waited for.
-void addLatency(const BenchParts& parts, EngineList& engines) {
+Result<void> addLatency(const BenchParts& parts, Engines& engines) {
     if (parts.session != nullptr) {
-        addTicks(*parts.session, std::nullopt, engines);
+        VOXTACT_TRY(addTicks(*parts.session, std::nullopt, engines));
     }
     const std::uint32_t threads = std::max(1U, std::thread::hardware_concurrency());
     for (cpu::DetectorDesc desc : askedOf(cpu::DetectorDesc{.threads = 1})) {
-        engines.add(makeHostEngine(desc));
+        VOXTACT_TRY(add(engines, makeHostEngine(desc)));
         if (threads > 1) {
             desc.threads = threads;
-            engines.add(makeHostEngine(desc));
+            VOXTACT_TRY(add(engines, makeHostEngine(desc)));
         }
     }
     if (parts.session != nullptr) {
-        addDeviceTicks(*parts.session, engines);
+        VOXTACT_TRY(addDeviceTicks(*parts.session, engines));
     }
+    return {};
 }
 
 /// The first is the host's certified yes or no, the second its count in the view.
-void addBatches(const BenchParts& parts, EngineList& engines) {
+Result<void> addBatches(const BenchParts& parts, Engines& engines) {
     const auto host = askedOf(cpu::DetectorDesc{});
-    engines.add(makeHostEngine(host[0]));
-    engines.add(makeHostEngine(host[2]));
+    VOXTACT_TRY(add(engines, makeHostEngine(host[0])));
+    VOXTACT_TRY(add(engines, makeHostEngine(host[2])));
     const auto computed = askedOf(methodOf(CountingMethod::Compute));
     for (const DetectorDesc& desc :
          {computed[0], computed[2], methodOf(CountingMethod::Query), methodOf(CountingMethod::Atomic)}) {
         if (can(parts.session, desc.method, desc.projection)) {
-            engines.add(makeDeviceEngine(*parts.session, desc));
+            VOXTACT_TRY(add(engines, makeDeviceEngine(*parts.session, desc)));
         }
     }
     for (DetectorDesc desc : {computed[0], computed[2]}) {
         desc.devicePoses = true;
         if (can(parts.session, desc.method, desc.projection)) {
-            engines.add(makeBlockingEngine(*parts.session, desc));
+            VOXTACT_TRY(add(engines, makeBlockingEngine(*parts.session, desc)));
         }
     }
+    return {};
 }
 
 /// What is of one mode alone.
 struct ModeRow {
     BenchDefaults defaults;
-    void (*addEngines)(const BenchParts& parts, EngineList& engines);
+    Result<void> (*addEngines)(const BenchParts& parts, Engines& engines);
     Result<void> (*run)(const BenchRun& run);
     std::uint64_t (*steps)(const BenchSettings& settings); ///< that `run` takes
 };
@@ -269,13 +277,11 @@ Result<void> bench(const BenchSettings& settings, const device::Session* session
     steps.begin(mode.steps(settings) * meshes.size());
     for (MeshPart& mesh : meshes) {
         VOXTACT_TRY(makeReady(session, mesh));
-        EngineList list;
-        mode.addEngines({volume, mesh, session}, list);
-        const Result<Engines> engines = list.take();
-        VOXTACT_TRY(engines);
+        Engines engines;
+        VOXTACT_TRY(mode.addEngines({volume, mesh, session}, engines));
         VOXTACT_TRY(mode.run({.settings = settings,
                               .work = {volume, mesh, {}, {framingCamera(volume.data.grid, 512, 512), 512, 512}},
-                              .engines = *engines,
+                              .engines = engines,
                               .limit = settings.timeLimit * 1000 / static_cast<double>(meshes.size()),
                               .step = steps.step,
                               .result = result}));

@@ -109,6 +109,16 @@ Result<void> checkFragments(const CompareRun& run) {
     return {};
 }
 
+/// Why the device cannot do a method; empty: it can, or the method is cpu.
+std::string whyNot(const device::Session& session, CountingMethod method) {
+    if (rowOf(method).host) {
+        return {};
+    }
+    const auto all = session.context.methods();
+    const auto support = std::ranges::find(all, method, &MethodSupport::method);
+    return support == all.end() ? "this version has it not" : support->available ? std::string() : support->reason;
+}
+
 /// The oracle's time is that of its checks: one thread, one pose after the other.
 void addOracleSeries(const Scene& scene, CompareResult& result) {
     if (!result.oracleMilliseconds) {
@@ -208,7 +218,7 @@ Result<void> addTrust(const device::Session& session, std::vector<MethodEntry>& 
 
 Result<Engines> makeMethodEngines(const device::Session& session, const CompareSettings& settings,
                                   CompareResult& result) {
-    EngineList engines;
+    Engines engines;
     for (const CountingMethod method : countingMethods()) {
         if (!settings.methods.empty() && std::ranges::find(settings.methods, method) == settings.methods.end()) {
             continue;
@@ -217,17 +227,19 @@ Result<Engines> makeMethodEngines(const device::Session& session, const CompareS
         result.methods.push_back({toString(method), why.empty(), why, toString(defaultFilter(method)),
                                   exactness(method) == Exactness::Exact});
         if (why.empty()) {
-            engines.add(makeMethodEngine(session, method));
+            VOXTACT_TRY(
+                add(engines, rowOf(method).host
+                                 ? makeHostEngine()
+                                 : makeDeviceEngine(session, {.method = method, .filter = defaultFilter(method)})));
         } else {
             result.notes.push_back(std::string("no ") + toString(method) + " on this device: " + why);
         }
     }
-    Result<Engines> made = engines.take();
-    if (made.ok() && made->empty()) {
+    if (engines.empty()) {
         return Error{ErrorCode::Unsupported, 0,
                      "none of the methods can be had: " + result.notes.front() + "; see voxtact devices"};
     }
-    return made;
+    return engines;
 }
 
 Result<std::vector<NamedCounts>> countAll(const Engines& engines, const Work& work) {

@@ -106,6 +106,24 @@ std::string speedOf(const Series& series, const std::string& what) {
            grouped(static_cast<std::uint64_t>(std::llround(*series.pairsPerSecond()))) + " pairs a second)";
 }
 
+/// What was found, in plain English, a sentence each: the agreement, then the speed.
+std::vector<std::string> summarize(const CompareResult& result) {
+    std::vector<std::string> sentences;
+    for (const Verdict& verdict : result.verdicts) {
+        sentences.push_back(sentenceOf(verdict));
+    }
+    const auto addFastest = [&](Mode mode, std::uint32_t batch, const char* what) {
+        const Series* const best = fastestOf(
+            result.series, [&](const Series& series) { return series.mode == mode && series.batch == batch; });
+        if (best != nullptr) {
+            sentences.push_back(speedOf(*best, what));
+        }
+    };
+    addFastest(Mode::Sync, 1, "for 1 pair, waited for");
+    addFastest(Mode::Pipelined, 1024, "for 1,024 pairs, in flight");
+    return sentences;
+}
+
 } // namespace
 
 Json methodJson(const MethodEntry& method) {
@@ -157,23 +175,6 @@ Json sceneJson(const Scene& scene) {
             {"opacity", opacityText(scene.volume->points)},
             {"tf_domain", {scene.volume->domain.lo, scene.volume->domain.hi}},
             {"tf_size", scene.volume->tableSize}};
-}
-
-std::vector<std::string> summarize(const CompareResult& result) {
-    std::vector<std::string> sentences;
-    for (const Verdict& verdict : result.verdicts) {
-        sentences.push_back(sentenceOf(verdict));
-    }
-    const auto addFastest = [&](Mode mode, std::uint32_t batch, const char* what) {
-        const Series* const best = fastestOf(
-            result.series, [&](const Series& series) { return series.mode == mode && series.batch == batch; });
-        if (best != nullptr) {
-            sentences.push_back(speedOf(*best, what));
-        }
-    };
-    addFastest(Mode::Sync, 1, "for 1 pair, waited for");
-    addFastest(Mode::Pipelined, 1024, "for 1,024 pairs, in flight");
-    return sentences;
 }
 
 Output compareOutput(const Scene& scene, const CompareResult& result) {

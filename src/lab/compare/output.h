@@ -13,8 +13,6 @@ namespace voxtact::lab {
 [[nodiscard]] io::Table seriesTable(const std::vector<Series>& series);
 [[nodiscard]] Json seriesJson(const std::vector<Series>& series, const Machine& machine);
 
-/// What was found, in plain English, a sentence each: the agreement, then the speed.
-[[nodiscard]] std::vector<std::string> summarize(const CompareResult& result);
 /// One row a series for CSV and text. Has references to the result.
 [[nodiscard]] Output compareOutput(const Scene& scene, const CompareResult& result);
 

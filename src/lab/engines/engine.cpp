@@ -2,7 +2,6 @@
 #include "lab/engines/engine.h"
 
 #include "core/base/try.h"
-#include "core/method/method_table.h"
 #include "detect/outputs/output_parts.h"
 #include "lab/measure/numbers.h"
 #include "lab/measure/stopwatch.h"
@@ -64,18 +63,12 @@ std::vector<std::uint64_t> Pass::counts() const {
     return counts;
 }
 
-void EngineList::add(MadeEngine engine, std::size_t ratioTo, bool sameCounts) {
-    if (!engine.ok()) {
-        error_ = error_.value_or(engine.error());
-        return;
-    }
+Result<void> add(Engines& engines, MadeEngine engine, std::size_t ratioTo, bool sameCounts) {
+    VOXTACT_TRY(engine);
     engine->facts.ratioTo = ratioTo;
     engine->facts.sameCounts = sameCounts;
-    engines_.push_back(std::move(*engine));
-}
-
-Result<Engines> EngineList::take() {
-    return error_ ? Result<Engines>(*error_) : Result<Engines>(std::move(engines_));
+    engines.push_back(std::move(*engine));
+    return {};
 }
 
 std::string questionOf(bool yesNo, const Outputs& outputs) {
@@ -103,20 +96,6 @@ MethodSpeed measureHost(const MeasureScene& scene, std::uint32_t repetitions) {
     speed.verdict.text = "the host, " + counted(host->facts.threads, "thread");
     speed.pairsPerSecond = static_cast<double>(scene.world_from_object.size()) / *seconds;
     return speed;
-}
-
-MadeEngine makeMethodEngine(const device::Session& session, CountingMethod method) {
-    return rowOf(method).host ? makeHostEngine()
-                              : makeDeviceEngine(session, {.method = method, .filter = defaultFilter(method)});
-}
-
-std::string whyNot(const device::Session& session, CountingMethod method) {
-    if (rowOf(method).host) {
-        return {};
-    }
-    const auto all = session.context.methods();
-    const auto support = std::ranges::find(all, method, &MethodSupport::method);
-    return support == all.end() ? "this version has it not" : support->available ? std::string() : support->reason;
 }
 
 } // namespace voxtact::lab

@@ -78,20 +78,9 @@ template <class State, class Run> [[nodiscard]] Engine engineOf(EngineFacts fact
             [shared, run](const Work& work, const Feeding& feeding) { return run(*shared, work, feeding); }};
 }
 
-/// Engines that are made one after the other.
-class EngineList {
-  public:
-    /// Its times are held against those of the engine of that number, and with `sameCounts` its counts must be that
-    /// one's.
-    void add(MadeEngine engine, std::size_t ratioTo = 0, bool sameCounts = false);
-    [[nodiscard]] std::size_t size() const noexcept { return engines_.size(); }
-    /// All of them, or the error of the first that could not be made.
-    [[nodiscard]] Result<Engines> take();
-
-  private:
-    Engines engines_;
-    std::optional<Error> error_;
-};
+/// Adds an engine, if it could be made. Its times are held against those of the engine of that number, and with
+/// `sameCounts` its counts must be that one's.
+[[nodiscard]] Result<void> add(Engines& engines, MadeEngine engine, std::size_t ratioTo = 0, bool sameCounts = false);
 
 /// What an engine answers: yes or no, or the count and the output beside it.
 [[nodiscard]] std::string questionOf(bool yesNo, const Outputs& outputs);
@@ -126,8 +115,6 @@ enum class Awaiting {
 /// feeding; nothing is made while it runs.
 [[nodiscard]] MadeEngine makeTickEngine(const device::Session& session, const std::optional<DetectorDesc>& desc,
                                         Awaiting awaiting);
-/// A counting method by its own filter, on the device or, for cpu, the host.
-[[nodiscard]] MadeEngine makeMethodEngine(const device::Session& session, CountingMethod method);
 /// FCL, for this mesh against the octree of this volume, which must be there.
 [[nodiscard]] Engine makeFclEngine(const VolumePart& volume, const MeshPart& mesh, FclScalar scalar);
 /// The octree, or nothing and a note that says why there is none. In both cases
@@ -143,8 +130,5 @@ enum class Awaiting {
 /// The same triangles by the fragments of one pass. Unsupported where the
 /// device cannot list them.
 [[nodiscard]] MadeEngine makeFragmentEngine(const device::Session& session);
-
-/// Why the device cannot do a method; empty: it can, or the method is cpu.
-[[nodiscard]] std::string whyNot(const device::Session& session, CountingMethod method);
 
 } // namespace voxtact::lab

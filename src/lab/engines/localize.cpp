@@ -31,10 +31,10 @@ namespace voxtact {
 struct Localizer::State {
     ContextImpl& context;
     std::shared_ptr<ContextImpl> owner = context.shared_from_this();
-    ViewPass pass;
-    Results results; ///< for the transform and the timestamps; counts nothing
-    Owned<VkQueryPool> queries;
-    Submitter submitter;
+    std::optional<ViewPass> pass{};
+    std::optional<Results> results{}; ///< for the transform and the timestamps; counts nothing
+    Owned<VkQueryPool> queries{};
+    std::optional<Submitter> submitter{};
 };
 
 struct FragmentTrace::State {
@@ -47,7 +47,7 @@ struct FragmentTrace::State {
     Buffer list{};
     Buffer readBack{};
     DescriptorSet descriptors{};
-    Submitter submitter;
+    std::optional<Submitter> submitter{};
 };
 
 namespace {
@@ -125,20 +125,20 @@ Result<std::vector<std::uint64_t>> count(Localizer::State& localizer, const Batc
                                          std::span<const std::uint32_t> triangles,
                                          std::optional<double>& gpuMilliseconds) {
     ContextImpl& context = localizer.context;
-    const Result<VkCommandBuffer> commandBuffer = localizer.submitter.begin();
+    const Result<VkCommandBuffer> commandBuffer = localizer.submitter->begin();
     VOXTACT_TRY(commandBuffer);
     const auto queries = static_cast<std::uint32_t>(triangles.size());
-    ResultsImpl& results = localizer.results.impl();
+    ResultsImpl& results = localizer.results->impl();
     results.pairs = 1;
     results.detectRecorded = true;
     {
         const Label label(context, *commandBuffer, "voxtact localize");
         VOXTACT_TRY(prepareResults(context, *commandBuffer, batch, results, kDesc));
         context.vk.CmdResetQueryPool(*commandBuffer, localizer.queries.get(), 0, queries);
-        localizer.pass.recordTriangles(*commandBuffer, batch, results, triangles, localizer.queries.get());
+        localizer.pass->recordTriangles(*commandBuffer, batch, results, triangles, localizer.queries.get());
         publishResults(context, *commandBuffer, results, kDesc);
     }
-    VOXTACT_TRY(localizer.submitter.submitAndWait());
+    VOXTACT_TRY(localizer.submitter->submitAndWait());
     std::vector<std::uint64_t> counts(queries);
     const VkResult read = context.vk.GetQueryPoolResults(
         context.device, localizer.queries.get(), 0, queries, counts.size() * sizeof counts[0], counts.data(),
@@ -147,7 +147,7 @@ Result<std::vector<std::uint64_t>> count(Localizer::State& localizer, const Batc
         return context.failure(read, "reading queries");
     }
     if (results.timestamps) {
-        const Result<double> time = localizer.results.gpuMilliseconds();
+        const Result<double> time = localizer.results->gpuMilliseconds();
         VOXTACT_TRY(time);
         gpuMilliseconds = gpuMilliseconds && *time > 0 ? std::optional(*gpuMilliseconds + *time) : std::nullopt;
     }
@@ -158,7 +158,7 @@ Result<lab::Pass> localize(Localizer::State& localizer, const Batch& batch, cons
                            const LocalizeAids& aids) {
     const lab::Stopwatch watch;
     lab::Pass out;
-    out.gpuMilliseconds = localizer.results.impl().timestamps ? std::optional(0.0) : std::nullopt;
+    out.gpuMilliseconds = localizer.results->impl().timestamps ? std::optional(0.0) : std::nullopt;
     const std::vector<std::uint32_t> all = candidates(item, way, aids, out);
     out.queries = all.size();
     for (std::size_t first = 0; first < all.size(); first += kQueries) {
@@ -239,10 +239,10 @@ Result<void> record(FragmentTrace::State& trace, VkCommandBuffer commandBuffer, 
 
 /// One try: the number of survivors, of which the list may hold fewer.
 Result<std::uint32_t> run(FragmentTrace::State& trace, const Batch& batch) {
-    const Result<VkCommandBuffer> commandBuffer = trace.submitter.begin();
+    const Result<VkCommandBuffer> commandBuffer = trace.submitter->begin();
     VOXTACT_TRY(commandBuffer);
     VOXTACT_TRY(record(trace, *commandBuffer, batch));
-    VOXTACT_TRY(trace.submitter.submitAndWait());
+    VOXTACT_TRY(trace.submitter->submitAndWait());
     VOXTACT_TRY(invalidate(trace.context, trace.readBack));
     std::uint32_t count = 0;
     std::memcpy(&count, trace.readBack.mapped, sizeof count);
@@ -284,23 +284,17 @@ Result<Localizer> Localizer::create(const Context& context, Filter filter, const
             return Error{ErrorCode::Unsupported, 0,
                          "counting the survivors of a triangle needs occlusionQueryPrecise to be enabled"};
         }
-        Result<Submitter> submitter = Submitter::create(c, queue);
-        VOXTACT_TRY(submitter);
-        Result<ViewPass> pass = ViewPass::create(c, {.method = CountingMethod::Query, .filter = filter});
-        VOXTACT_TRY(pass);
-        Result<Results> results = Results::create(context, {.maxPairs = 1,
-                                                            .readBack = false,
-                                                            .timestamps = c.timestampBits(queue.family) > 0,
-                                                            .queueFamily = queue.family});
-        VOXTACT_TRY(results);
-        Result<Owned<VkQueryPool>> queries =
-            makeQueryPool(c, VK_QUERY_TYPE_OCCLUSION, kQueries, "queries of triangles");
-        VOXTACT_TRY(queries);
-        return Localizer(std::make_shared<State>(State{.context = c,
-                                                       .pass = std::move(*pass),
-                                                       .results = std::move(*results),
-                                                       .queries = std::move(*queries),
-                                                       .submitter = std::move(*submitter)}));
+        const auto state = std::make_shared<State>(State{.context = c});
+        VOXTACT_TRY(lab::put(Submitter::create(c, queue), state->submitter));
+        VOXTACT_TRY(lab::put(ViewPass::create(c, {.method = CountingMethod::Query, .filter = filter}), state->pass));
+        VOXTACT_TRY(lab::put(Results::create(context, {.maxPairs = 1,
+                                                       .readBack = false,
+                                                       .timestamps = c.timestampBits(queue.family) > 0,
+                                                       .queueFamily = queue.family}),
+                             state->results));
+        VOXTACT_TRY(
+            lab::put(makeQueryPool(c, VK_QUERY_TYPE_OCCLUSION, kQueries, "queries of triangles"), state->queries));
+        return Localizer(state);
     });
 }
 
@@ -321,9 +315,8 @@ Result<FragmentTrace> FragmentTrace::create(const Context& context, Filter filte
             return Error{ErrorCode::Unsupported, 0,
                          "a list of fragments needs geometryShader and fragmentStoresAndAtomics to be enabled"};
         }
-        Result<Submitter> submitter = Submitter::create(c, queue);
-        VOXTACT_TRY(submitter);
-        const auto state = std::make_shared<State>(State{.context = c, .submitter = std::move(*submitter)});
+        const auto state = std::make_shared<State>(State{.context = c});
+        VOXTACT_TRY(lab::put(Submitter::create(c, queue), state->submitter));
         VOXTACT_TRY(makeLayouts(*state));
         VOXTACT_TRY(lab::put(ViewPass::createTrace(c, filter, state->layout.get()), state->pass));
         VOXTACT_TRY(lab::put(Results::create(context, {.maxPairs = 1, .readBack = false}), state->results));

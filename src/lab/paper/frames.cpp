@@ -37,12 +37,7 @@ struct FrameSample {
 };
 
 /// Timestamps of a frame, by their numbers: around everything, and those of Target::timestamps.
-constexpr std::uint32_t kFrameBegins = 0;
-constexpr std::uint32_t kPictureBegins = 1;
-constexpr std::uint32_t kMeshDone = 2;
-constexpr std::uint32_t kVolumeDone = 3;
-constexpr std::uint32_t kFrameEnds = 4;
-constexpr std::uint32_t kFrameStamps = 5;
+enum : std::uint32_t { kFrameBegins, kPictureBegins, kMeshDone, kVolumeDone, kFrameEnds, kFrameStamps };
 
 constexpr ImageUse kDrawnTo{VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT,
                             VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
