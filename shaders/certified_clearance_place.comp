@@ -27,7 +27,7 @@ struct Block {
 };
 
 CertifiedCell cellOf(ivec3 cell) {
-    return certifiedCell(constants.item, cornersOf(cell, vec4(0.0)), cell.x, cell.y, cell.z, 0.0);
+    return certifiedCell(constants.item, cornersInBrick(cell, vec4(0.0)), cell.x, cell.y, cell.z, 0.0);
 }
 
 /// The interpolant at a point about the first cell's corner.
@@ -109,6 +109,16 @@ VoxelPoint opaqueOn(Block block, VoxelPoint from, VoxelPoint to) {
     return isOpaque(block, entryAt(block, above)) ? above : below;
 }
 
+/// What a value may be off by, as what proved the place had it.
+float errorOf(ClosestPlace place) {
+    const vec4 range = brickAt((place.cell + 1) >> VOXTACT_BRICK_SHIFT);
+    if (place.kind == VOXTACT_CLOSEST_IN_BRICK) {
+        return certifiedPointError(constants.item, range.x, range.y);
+    }
+    const CertifiedCorners corners = cornersOf(place.cell, range);
+    return certifiedPointError(constants.item, corners.wideLo, corners.wideHi);
+}
+
 VoxelPoint pointAt(uint word) {
     return voxelPoint(uintBitsToFloat(queues[word]), uintBitsToFloat(queues[word + 1]),
                       uintBitsToFloat(queues[word + 2]));
@@ -127,9 +137,7 @@ void main() {
         return;
     }
     const bool ofBrick = place.kind == VOXTACT_CLOSEST_IN_BRICK;
-    const vec4 range = brickAt((place.cell + 1) >> VOXTACT_BRICK_SHIFT);
-    const float error = ofBrick ? certifiedPointError(constants.item, range.x, range.y)
-                                : certifiedPointError(constants.item, range.z, range.w);
+    const float error = errorOf(place);
     if (ofBrick) {
         place = acrossBrick(place);
     } else if (place.kind == VOXTACT_CLOSEST_IN_CELL) {

@@ -18,14 +18,17 @@ layout(set = VOXTACT_SET_PAIRS, binding = VOXTACT_BINDING_TRANSFORMS, std430) bu
 #define LARGE_WORD VOXTACT_WORD_CLEARANCE_LARGE(constants.queueRoom)
 #define LARGE_ROOM VOXTACT_CLEARANCE_ROOM_LARGE(constants.queueRoom)
 #define LEFT_WORD VOXTACT_WORD_CLEARANCE_LEFT(constants.queueRoom)
+#define LEFT_ROOM VOXTACT_CLEARANCE_ROOM_LEFT(constants.queueRoom)
 #elif defined(MARGIN)
 #define LARGE_WORD VOXTACT_WORD_LARGE(constants.queueRoom)
 #define LARGE_ROOM VOXTACT_MARGIN_ROOM_LARGE(constants.queueRoom)
 #define LEFT_WORD VOXTACT_MARGIN_WORD_LEFT(constants.queueRoom)
+#define LEFT_ROOM VOXTACT_MARGIN_ROOM_LEFT(constants.queueRoom)
 #else
 #define LARGE_WORD VOXTACT_WORD_LARGE(constants.queueRoom)
 #define LARGE_ROOM VOXTACT_ROOM_LARGE(constants.queueRoom)
 #define LEFT_WORD VOXTACT_WORD_LEFT(constants.queueRoom)
+#define LEFT_ROOM VOXTACT_ROOM_LEFT(constants.queueRoom)
 #endif
 
 uint queueCount(uint queue) {
@@ -95,11 +98,13 @@ uint mostGroupsLeft() {
                uint(VOXTACT_MOST_LOOKS) / kLooksOfGroup);
 #else
     // The host bounds looks, and boxes of large triangles have more bricks than these pass through: some dozens of
-    // times as many. It cannot bound those of triangles that it does not know, nor cut what one cluster has.
+    // times as many. It cannot bound those of triangles that it does not know, nor cut what one cluster has: that may be
+    // left once as a whole, and in parts as well.
     const uint kMost = VOXTACT_LEFT_LAYER * VOXTACT_LEFT_MOST_LAYERS;
     const ivec3 size = brickCounts();
-    const uint whole = groupsOfBricks(uint(size.x * size.y * size.z));
-    const uint ofCluster = min(whole, kMost / VOXTACT_CLUSTER_TRIANGLES) * VOXTACT_CLUSTER_TRIANGLES;
+    const uint whole = groupsOfBricks(uint(size.x * size.y * size.z)) + kBricksOfGroup;
+    const uint ofCluster = min(whole, kMost / (2 * VOXTACT_CLUSTER_TRIANGLES)) * VOXTACT_CLUSTER_TRIANGLES +
+                           LARGE_ROOM * VOXTACT_RUN_TRIANGLES;
     return min(max(constants.queueRoom * VOXTACT_GROUPS_OF_CLUSTER, ofCluster), kMost);
 #endif
 }
@@ -110,7 +115,7 @@ uint leftBlockWord(uint block) {
 
 /// A share, of `lanes`, of making the blocks of what is left empty: for the first pass of a round.
 void emptyLeftBlocks(uint lane, uint lanes) {
-    for (uint block = lane; block < VOXTACT_ROOM_LEFT_BLOCKS(constants.queueRoom); block += lanes) {
+    for (uint block = lane; block * VOXTACT_LEFT_BLOCK < LEFT_ROOM; block += lanes) {
         queues[leftBlockWord(block)] = 0;
     }
 }
@@ -129,15 +134,18 @@ bool leave(uint what, uint number, uint brick, uint groups) {
         }
         seen = atomicCompSwap(queues[constants.headerWord + VOXTACT_GROUPS_LEFT], first, first + groups);
     } while (seen != first);
-    const uint entry = atomicAdd(queues[word + 3], 1u);
-#ifdef CLEARANCE
-    if (entry >= VOXTACT_CLEARANCE_ROOM_LEFT(constants.queueRoom)) {
-        return false; // and its work groups find nothing to do
+    if (seen != first) {
+        return false; // the loop was cut (certified_scene.glsl)
     }
-#endif
     const uint layers = (first + groups + VOXTACT_LEFT_LAYER - 1) / VOXTACT_LEFT_LAYER -
                         (first + VOXTACT_LEFT_LAYER - 1) / VOXTACT_LEFT_LAYER;
     atomicAdd(queues[word + 2], layers);
+    const uint entry = atomicAdd(queues[word + 3], 1u);
+#ifdef CLEARANCE
+    if (entry >= LEFT_ROOM) {
+        return false; // and its work groups find nothing to do
+    }
+#endif
     atomicAdd(queues[leftBlockWord(entry / VOXTACT_LEFT_BLOCK)], groups);
     quads[quadOf(LEFT_WORD, entry)] = uvec4(what << VOXTACT_LEFT_SHIFT | number, brick, groups, 0);
     return true;

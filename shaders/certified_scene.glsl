@@ -166,38 +166,43 @@ CertifiedCorners cornersAround(CertifiedCorners corners, ivec3 cell) {
     return around;
 }
 
-#ifdef MARGIN
-/// Whether a cell may be known far better than its brick's range says: one voxel of that is far from all others.
-bool isInOutlyingRange(CertifiedCorners corners, float stored[8]) {
-    const float kLeastError = 0.0009765625; // entries of the table
-    const float kTimes = 16.0;
-    float lo = stored[0];
-    float hi = stored[0];
-    for (int i = 1; i < 8; ++i) {
-        lo = certifiedMin(lo, stored[i]);
-        hi = certifiedMax(hi, stored[i]);
-    }
-    const float error = certifiedPointError(constants.item, corners.wideLo, corners.wideHi);
-    return error > kLeastError && error > kTimes * certifiedPointError(constants.item, lo, hi);
-}
-#endif
-
-/// `range`: of the cell's brick. With a margin there is no other attempt at a cell, so that where it matters they have
-/// the range of the voxels around it.
-CertifiedCorners cornersOf(ivec3 cell, vec4 range) {
+/// `range`: of the cell's brick.
+CertifiedCorners cornersInBrick(ivec3 cell, vec4 range) {
     float stored[8];
     ROLLED for (int i = 0; i < 8; ++i) {
         stored[i] = storedAt(cell + ivec3(i & 1, (i >> 1) & 1, i >> 2));
     }
-    const CertifiedCorners corners = CertifiedCorners(stored[0], stored[1], stored[2], stored[3], stored[4], stored[5],
-                                                      stored[6], stored[7], range.z, range.w);
-#ifdef MARGIN
-    if (isInOutlyingRange(corners, stored)) {
-        return cornersAround(corners, cell);
-    }
-#endif
-    return corners;
+    return CertifiedCorners(stored[0], stored[1], stored[2], stored[3], stored[4], stored[5], stored[6], stored[7],
+                            range.z, range.w);
 }
+
+#ifdef MARGIN
+/// Whether a cell may be known far better than its brick's range says: one voxel of that is far from all others.
+bool isInOutlyingRange(CertifiedCorners at) {
+    const float kLeastError = 0.25; // entries of the table
+    const float kTimes = 16.0;
+    const float error = certifiedPointError(constants.item, at.wideLo, at.wideHi);
+    if (!(error > kLeastError)) {
+        return false;
+    }
+    const float lo = certifiedMin(certifiedMin(certifiedMin(at.s000, at.s100), certifiedMin(at.s010, at.s110)),
+                                  certifiedMin(certifiedMin(at.s001, at.s101), certifiedMin(at.s011, at.s111)));
+    const float hi = certifiedMax(certifiedMax(certifiedMax(at.s000, at.s100), certifiedMax(at.s010, at.s110)),
+                                  certifiedMax(certifiedMax(at.s001, at.s101), certifiedMax(at.s011, at.s111)));
+    return error > kTimes * certifiedPointError(constants.item, lo, hi);
+}
+
+/// With a margin there is no other attempt at a cell, so that where it matters they have the range of the voxels around
+/// it. `range`: of its brick.
+CertifiedCorners cornersOf(ivec3 cell, vec4 range) {
+    const CertifiedCorners corners = cornersInBrick(cell, range);
+    return isInOutlyingRange(corners) ? cornersAround(corners, cell) : corners;
+}
+#else
+CertifiedCorners cornersOf(ivec3 cell, vec4 range) {
+    return cornersInBrick(cell, range);
+}
+#endif
 
 #include "exact_language.h"
 

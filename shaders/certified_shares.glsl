@@ -79,11 +79,7 @@ struct LeftTurn {
 };
 
 uint entriesLeft() {
-#ifdef CLEARANCE
-    return min(queueCount(VOXTACT_QUEUE_LEFT), VOXTACT_CLEARANCE_ROOM_LEFT(constants.queueRoom));
-#else
-    return queueCount(VOXTACT_QUEUE_LEFT);
-#endif
+    return min(queueCount(VOXTACT_QUEUE_LEFT), LEFT_ROOM); // with clearances more may have been counted
 }
 
 /// The entry that has the `group`th work group of all. Asked by all lanes together, of what is the same for all.

@@ -324,7 +324,7 @@ struct CertifiedConstants {
 // The command of certified_finish for what is left has as many layers as it takes, each of VOXTACT_LEFT_COLUMNS times
 // VOXTACT_LEFT_ROWS work groups. The other one has one row: so it knows which it is. No work group has two turns: a
 // loop over these could be cut (certified_scene.glsl), and what it had not come to would be missed.
-#define VOXTACT_LEFT_COLUMNS 128
+#define VOXTACT_LEFT_COLUMNS 1024
 #define VOXTACT_LEFT_ROWS 2
 #define VOXTACT_LEFT_LAYER (VOXTACT_LEFT_COLUMNS * VOXTACT_LEFT_ROWS)
 #define VOXTACT_LEFT_MOST_LAYERS 65535u // Vulkan's least maxComputeWorkGroupCount

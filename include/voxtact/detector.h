@@ -149,12 +149,13 @@ struct ResultsDesc {
     /// batch of more is more dispatches. For each, one looks at 2^16 bricks and cells of large triangles at most, and
     /// for all together at 3.5e9; but a cluster of one pair is never cut, and of a mesh of which the host knows no
     /// vertex (wrapped, or after Mesh::cmdCopy()) the clusters are bounded, and for each, work groups for 32,768 bricks
-    /// (with a margin 8,192) that had no room: what is beyond that is left undecided. No other answer depends on it. 16
-    /// to 262144, as many as a GPU can do before its driver takes it for stuck; each takes 721 bytes of device memory.
-    /// 0: none, for Results for other projections. Nothing: by maxPairs, 2048 to 16384, or more where the device's
-    /// maxComputeWorkGroupCount allows for it, the queues take no more than a 128th of its memory, and there is no room
-    /// for clearances or motions. In any case fewer where its maxComputeWorkGroupCount (16384 for each 65535 along x)
-    /// or maxStorageBufferRange has no room for so many.
+    /// (with a margin 8,192) that had no room, or more for a single cluster: what is beyond that, and beyond 134
+    /// million work groups, is left undecided (docs/engine.md). No other answer depends on it. 16 to 262144, as many as
+    /// a GPU can do before its driver takes it for stuck; each takes 721 bytes of device memory. 0: none, for Results
+    /// for other projections. Nothing: by maxPairs, 2048 to 16384, or more where the device's maxComputeWorkGroupCount
+    /// allows for it, the queues take no more than a 128th of its memory, and there is no room for clearances or
+    /// motions. In any case fewer where its maxComputeWorkGroupCount (16384 for each 65535 along x) or
+    /// maxStorageBufferRange has no room for so many.
     std::optional<std::uint32_t> clustersAtOnce = std::nullopt;
     /// For detectors with DetectorDesc::clearance: 68 bytes of device memory a pair, 16 of the host's where there is a
     /// copy, and 648 bytes more for each of clustersAtOnce. They take the queues of the projection conservative.

@@ -120,8 +120,11 @@ Result<MeshData> loadMesh(const std::string& source, const MeshOptions& options)
 Result<std::vector<ControlPoint>> loadControlPoints(const TransferFunctionOptions& options) {
     if (options.opacity) {
         Result<std::vector<ControlPoint>> points = io::parseOpacity(*options.opacity);
+        if (points.ok() || points.error().code == ErrorCode::OutOfMemory) {
+            return points;
+        }
         constexpr std::string_view kWhat = "opacity"; // begins what parseOpacity() says
-        return points.ok() ? points : badArgument(options.opacityOption + points.error().text.substr(kWhat.size()));
+        return badArgument(options.opacityOption + points.error().text.substr(kWhat.size()));
     }
     if (options.path.empty()) {
         return std::vector<ControlPoint>{};

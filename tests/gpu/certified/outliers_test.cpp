@@ -122,5 +122,41 @@ TEST_F(ClearanceOutliersTest, EndWhatTheyLeaveOpen) {
     }
 }
 
+/// A point is found where something is opaque between two values, of cells in bricks with an outlier, too.
+TEST_F(ClearanceOutliersTest, HaveOpaqueClosestPoints) {
+    DetectorDesc desc{.method = CountingMethod::Compute, .projection = Projection::Conservative, .stopAtFirst = true};
+    desc.clearance = ClearanceSearch{};
+    desc.closest = true;
+    const Detector device = take(Detector::create(context(), desc));
+    const BallScene scene(1, -1e30F);
+    const std::array peak{ControlPoint{0, 0}, ControlPoint{0.4, 0}, ControlPoint{0.5, 1}, ControlPoint{0.6, 0},
+                          ControlPoint{1, 0}};
+    const TransferFunctionDesc table{peak, {0, 1}, kDefaultTableSize};
+    const Sides sides(context(), queue(), scene.image.view(), table, scene.mesh.view(), true);
+    const BatchItem item = sides.item(scene.poses);
+    const Answered found = detect(device, {{&item, 1}, {}, 0.5}, 4, 2048);
+    const Mat4 index_from_world = inverse(worldFromIndex(scene.image.grid)).value();
+    const std::span<const float> voxels{reinterpret_cast<const float*>(scene.image.voxels.data()),
+                                        std::size_t{BallScene::kSide} * BallScene::kSide * BallScene::kSide};
+    for (const PairClearance& pair : found.clearances) {
+        ASSERT_TRUE(pair.closest.has_value());
+        const Vec3 at = transformPoint(index_from_world, pair.closest->volume);
+        double value = 0;
+        for (std::size_t corner = 0; corner < 8; ++corner) {
+            std::size_t place = 0;
+            double weight = 1;
+            for (std::size_t axis = 3; axis-- > 0;) {
+                const auto low = static_cast<std::size_t>(std::floor(at[axis]));
+                const double part = at[axis] - std::floor(at[axis]);
+                const std::size_t upper = corner >> axis & 1U;
+                weight *= upper == 0 ? 1 - part : part;
+                place = place * BallScene::kSide + low + upper;
+            }
+            value += weight == 0 ? 0 : weight * voxels[place];
+        }
+        EXPECT_NEAR(value, 0.5, 0.051);
+    }
+}
+
 } // namespace
 } // namespace voxtact::test
