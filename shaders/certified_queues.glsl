@@ -103,7 +103,7 @@ uint mostGroupsLeft() {
     const uint kMost = VOXTACT_LEFT_LAYER * VOXTACT_LEFT_MOST_LAYERS;
     const ivec3 size = brickCounts();
     const uint whole = groupsOfBricks(uint(size.x * size.y * size.z)) + kBricksOfGroup;
-    const uint ofCluster = min(whole, kMost / (2 * VOXTACT_CLUSTER_TRIANGLES)) * VOXTACT_CLUSTER_TRIANGLES +
+    const uint ofCluster = min(whole, kMost / VOXTACT_CLUSTER_TRIANGLES) * VOXTACT_CLUSTER_TRIANGLES +
                            LARGE_ROOM * VOXTACT_RUN_TRIANGLES;
     return min(max(constants.queueRoom * VOXTACT_GROUPS_OF_CLUSTER, ofCluster), kMost);
 #endif
