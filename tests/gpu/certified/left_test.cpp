@@ -32,7 +32,8 @@ class LeftTest : public CertifiedTest {
 };
 
 /// More entries than the work groups have lanes times lanes: more than one block of them is a lane's. Small triangles,
-/// large ones, and large ones that have parts.
+/// large ones, and large ones that have parts. Then, in a round of its own, some of the pairs again: it finds nothing
+/// of the round before.
 TEST_F(LeftTest, OfMoreEntriesThanALaneHasABlockOf) {
     const std::uint64_t seed = testSeed();
     std::mt19937_64 random(seed);
@@ -61,12 +62,16 @@ TEST_F(LeftTest, OfMoreEntriesThanALaneHasABlockOf) {
     const Volume volume = take(Volume::upload(context(), queue(), noise.view(), {.bricks = true}));
     const TransferFunction function = take(TransferFunction::upload(context(), queue(), table));
     const Mesh mesh = take(Mesh::upload(context(), queue(), data.view(), {.clusters = true}));
-    const BatchItem item{&mesh, &volume, &function, poses};
-    const Answered found = detect(kCount, {{&item, 1}, {}, 0.5}, kPairs, 16384);
-    EXPECT_EQ(found.counters.rounds, 1U);
-    EXPECT_GT(found.counters.left, 4096U);
-    const std::vector<PairAnswer> host = onHost(data, noise, table, poses, 0.5);
-    for (std::uint32_t i = 0; i < kPairs; ++i) {
+    constexpr std::uint32_t kAgain = 2048;
+    const std::array items{BatchItem{&mesh, &volume, &function, poses},
+                           BatchItem{&mesh, &volume, &function, std::span(poses).first(kAgain)}};
+    const Answered found = detect(kCount, {items, {}, 0.5}, kPairs + kAgain, 16384);
+    EXPECT_EQ(found.counters.rounds, 2U);
+    EXPECT_GT(found.counters.mostLeft, 4096U);
+    EXPECT_GT(found.counters.left - found.counters.mostLeft, 2U * 64U); // blocks
+    std::vector<PairAnswer> host = onHost(data, noise, table, poses, 0.5);
+    host.insert(host.end(), host.begin(), host.begin() + kAgain);
+    for (std::uint32_t i = 0; i < kPairs + kAgain; ++i) {
         ASSERT_EQ(found.pairs[i].count, host[i].count) << "pair " << i << ", seed " << seed;
         ASSERT_EQ(found.pairs[i].exactness, host[i].exactness) << "pair " << i << ", seed " << seed;
     }
