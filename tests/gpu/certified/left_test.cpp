@@ -36,14 +36,14 @@ class LeftTest : public CertifiedTest {
 /// of the round before.
 TEST_F(LeftTest, OfMoreEntriesThanALaneHasABlockOf) {
     const std::uint64_t seed = testSeed();
-    std::mt19937_64 random(seed);
+    std::mt19937_64 random(1); // how much is left depends on the mesh
     const VolumeData noise =
         makeBytes(unitGrid(32), [&](auto...) { return random() % 4 == 0 ? static_cast<double>(random() % 256) : 0.0; });
     const std::array points{ControlPoint{0, 0}, ControlPoint{120, 0}, ControlPoint{130, 1}, ControlPoint{255, 1}};
     const TransferFunctionDesc table{points, {0, 255}, kDefaultTableSize};
     MeshData data;
     for (std::uint32_t triangle = 0; triangle < 64; ++triangle) {
-        const double side = triangle % 16 == 0 ? 0.25 : 0.04; // of the volume's
+        const double side = triangle % 8 == 0 ? 0.25 : 0.04; // of the volume's
         std::array<Vec3, 3> at{};
         const Vec3 about{uniform(random, -0.1, 0.1), uniform(random, -0.1, 0.1), uniform(random, -0.1, 0.1)};
         for (Vec3& corner : at) {
@@ -54,6 +54,7 @@ TEST_F(LeftTest, OfMoreEntriesThanALaneHasABlockOf) {
         addTriangle(data, at[0], at[1], at[2]);
     }
     constexpr std::uint32_t kPairs = 4096;
+    random.seed(seed);
     std::vector<Mat4> poses;
     for (std::uint32_t i = 0; i < kPairs; ++i) { // every seventh is beside the volume
         poses.push_back(
