@@ -67,7 +67,7 @@ bool clearanceIsDone(uint pair) {
            clearanceSpace(pair).margin <= clearanceLo(pair);
 }
 
-/// In place of no distance at all of what was looked at: the least number that arithmetic keeps.
+/// Stands for a distance of 0 to something that was looked at: the least number that arithmetic does not take for 0.
 const float kNoDistance = 1.17549435e-38;
 
 /// Something is left undecided, and may be as near. 0: nothing is known of it.

@@ -21,7 +21,7 @@ layout(push_constant) uniform Search { ClearanceConstants constants; };
 /// Of a distance in mm: more than rounding does to it.
 const float kInward = 0.99999905;
 const float kOutward = 1.00000095;
-/// Flat: so far beyond what was left undecided something certain is looked for.
+/// Flat: something certain is looked for up to so far beyond twice the distance of what was left undecided.
 const float kFarBeyond = 16.0;
 
 struct State {

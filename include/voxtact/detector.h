@@ -148,9 +148,9 @@ struct ResultsDesc {
     /// Clusters of 64 triangles, once a pair, that a dispatch of the projection conservative looks at, at most; a
     /// batch of more is more dispatches. For each, one looks at 2^16 bricks and cells of large triangles at most, and
     /// for all together at 3.5e9; but a cluster of one pair is never cut, and of a mesh of which the host knows no
-    /// vertex (wrapped, or after Mesh::cmdCopy()) the clusters are bounded, and for each, work groups for 32,768 bricks
-    /// (with a margin 8,192) that had no room, or more for a single cluster: what is beyond that, and beyond 134
-    /// million work groups, is left undecided (docs/engine.md). No other answer depends on it. 16 to 262144, as many as
+    /// vertex (wrapped, or after Mesh::cmdCopy()) only the clusters are bounded. Where such a mesh has so many huge
+    /// triangles that the device's own bound is passed (docs/engine.md, What bounds a dispatch), the rest of them is
+    /// left undecided: the answer is then possible. No other answer depends on it. 16 to 262144, as many as
     /// a GPU can do before its driver takes it for stuck; each takes 721 bytes of device memory. 0: none, for Results
     /// for other projections. Nothing: by maxPairs, 2048 to 16384, or more where the device's maxComputeWorkGroupCount
     /// allows for it, the queues take no more than a 128th of its memory, and there is no room for clearances or
