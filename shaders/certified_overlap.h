@@ -9,9 +9,10 @@
 
 #include "certified.h"
 
-/// Voxels: by how much a cell is made smaller and larger on each side. Far more than a point of certifiedClip() may be
-/// displaced, and than rounding adds here.
-#define CERTIFIED_OVERLAP_MARGIN 0.0078125f
+/// In deltas of the triangle: by how much a cell is made smaller and larger on each side. A point of certifiedClip()
+/// may be displaced by two. What rounding adds here is a part of one: a place on an axis is off by less than 2^-20 of
+/// how far the triangle reaches from the cell, and the delta is not less than 2^-18 of `reach`.
+#define CERTIFIED_OVERLAP_MARGIN 8.0f
 /// Voxels: nothing is said of triangles that may be displaced farther, nor of those that reach farther.
 #define CERTIFIED_OVERLAP_DELTA 0.00048828125f
 #define CERTIFIED_OVERLAP_REACH 1024.0f
@@ -33,28 +34,33 @@ EXACT float certifiedShadowGap(float a, float b, float c, float size) {
     return certifiedShadowBegins(a, b, c) - 0.5f * size;
 }
 
+EXACT float certifiedOverlapMargin(float delta) {
+    return CERTIFIED_OVERLAP_MARGIN * delta;
+}
+
 /// Takes one axis into account: a gap beyond the margin separates, and one within it leaves open what cutting leaves.
-EXACT void certifiedSeparate(float gap, float size, INOUT(bool) none, INOUT(bool) some) {
-    const float margin = CERTIFIED_OVERLAP_MARGIN * size;
-    none = none || gap > margin;
-    some = some && gap <= -margin;
+/// `margin` is that of an axis whose `size` is 1.
+EXACT void certifiedSeparate(float gap, float size, float margin, INOUT(bool) none, INOUT(bool) some) {
+    const float most = margin * size;
+    none = none || gap > most;
+    some = some && gap <= -most;
 }
 
 /// The three axes at right angles to an edge, of a triangle whose corners are relative to the cell's middle.
-EXACT void certifiedSeparateByEdge(VoxelPoint edge, VoxelPoint a, VoxelPoint b, VoxelPoint c, INOUT(bool) none,
-                                   INOUT(bool) some) {
+EXACT void certifiedSeparateByEdge(VoxelPoint edge, VoxelPoint a, VoxelPoint b, VoxelPoint c, float margin,
+                                   INOUT(bool) none, INOUT(bool) some) {
     const float x = certifiedAbs(edge.x);
     const float y = certifiedAbs(edge.y);
     const float z = certifiedAbs(edge.z);
     certifiedSeparate(certifiedShadowGap(edge.z * a.y - edge.y * a.z, edge.z * b.y - edge.y * b.z,
                                          edge.z * c.y - edge.y * c.z, y + z),
-                      y + z, none, some);
+                      y + z, margin, none, some);
     certifiedSeparate(certifiedShadowGap(edge.x * a.z - edge.z * a.x, edge.x * b.z - edge.z * b.x,
                                          edge.x * c.z - edge.z * c.x, z + x),
-                      z + x, none, some);
+                      z + x, margin, none, some);
     certifiedSeparate(certifiedShadowGap(edge.y * a.x - edge.x * a.y, edge.y * b.x - edge.x * b.y,
                                          edge.y * c.x - edge.x * c.y, x + y),
-                      x + y, none, some);
+                      x + y, margin, none, some);
 }
 
 EXACT bool certifiedInCell(VoxelPoint fromMiddle) {
@@ -77,20 +83,21 @@ EXACT int certifiedOverlap(CertifiedTriangle triangle, int x, int y, int z) {
     }
     bool none = false;
     bool some = true;
-    certifiedSeparate(certifiedShadowGap(a.x, b.x, c.x, 1.0f), 1.0f, none, some);
-    certifiedSeparate(certifiedShadowGap(a.y, b.y, c.y, 1.0f), 1.0f, none, some);
-    certifiedSeparate(certifiedShadowGap(a.z, b.z, c.z, 1.0f), 1.0f, none, some);
-    certifiedSeparateByEdge(voxelDifference(b, a), a, b, c, none, some);
-    certifiedSeparateByEdge(voxelDifference(c, b), a, b, c, none, some);
-    certifiedSeparateByEdge(voxelDifference(a, c), a, b, c, none, some);
+    const float margin = certifiedOverlapMargin(triangle.delta);
+    certifiedSeparate(certifiedShadowGap(a.x, b.x, c.x, 1.0f), 1.0f, margin, none, some);
+    certifiedSeparate(certifiedShadowGap(a.y, b.y, c.y, 1.0f), 1.0f, margin, none, some);
+    certifiedSeparate(certifiedShadowGap(a.z, b.z, c.z, 1.0f), 1.0f, margin, none, some);
+    certifiedSeparateByEdge(voxelDifference(b, a), a, b, c, margin, none, some);
+    certifiedSeparateByEdge(voxelDifference(c, b), a, b, c, margin, none, some);
+    certifiedSeparateByEdge(voxelDifference(a, c), a, b, c, margin, none, some);
     // Rounding may have turned the normal: as certifiedPlaneMisses() has it.
     const VoxelPoint normal = triangle.normal;
     const float size = certifiedAbs(normal.x) + certifiedAbs(normal.y) + certifiedAbs(normal.z);
     const float slack = triangle.reach * triangle.reach * (triangle.reach + 1.0f) * CERTIFIED_CLIP_ERROR;
     const float distance = certifiedAbs(normal.x * a.x + normal.y * a.y + normal.z * a.z);
     const float gap = distance - 0.5f * size;
-    none = none || gap - slack > CERTIFIED_OVERLAP_MARGIN * size;
-    some = some && gap + slack <= -CERTIFIED_OVERLAP_MARGIN * size;
+    none = none || gap - slack > margin * size;
+    some = some && gap + slack <= -margin * size;
     return none ? CERTIFIED_NONE : (some ? CERTIFIED_CERTAIN : CERTIFIED_UNDECIDED);
 }
 

@@ -197,12 +197,12 @@ HWY_INLINE FloatV crossed(FloatV a, FloatV b, FloatV c, FloatV d) {
 struct Verdict {
     Mask none;
     Mask some;
+    FloatV margin; ///< as certifiedOverlapMargin() has it
 
     HWY_INLINE void separate(FloatV gap, FloatV slack, FloatV size) {
-        const Floats d;
-        const FloatV margin = hn::Mul(hn::Set(d, CERTIFIED_OVERLAP_MARGIN), size);
-        none = hn::Or(none, hn::Gt(hn::Sub(gap, slack), margin));
-        some = hn::And(some, hn::Le(hn::Add(gap, slack), hn::Neg(margin)));
+        const FloatV most = hn::Mul(margin, size);
+        none = hn::Or(none, hn::Gt(hn::Sub(gap, slack), most));
+        some = hn::And(some, hn::Le(hn::Add(gap, slack), hn::Neg(most)));
     }
     HWY_INLINE void separate(FloatV a, FloatV b, FloatV c, FloatV size) {
         const Floats d;
@@ -228,6 +228,7 @@ struct Verdict {
 struct Asked {
     std::array<PointV, 3> corner;
     PointV middle;
+    FloatV delta;
 };
 
 HWY_INLINE Asked askedOf(const FineRun::Triangles& triangles, const FineRun::Cells& cells, std::size_t i) {
@@ -248,6 +249,7 @@ HWY_INLINE Asked askedOf(const FineRun::Triangles& triangles, const FineRun::Cel
     };
     asked.middle = {middle(0, hn::And(number, one)), middle(1, hn::And(hn::ShiftRight<1>(number), one)),
                     middle(2, hn::ShiftRight<2>(number))};
+    asked.delta = hn::GatherIndex(d, triangles.delta.data(), triangle);
     return asked;
 }
 
@@ -259,7 +261,7 @@ HWY_INLINE Verdict overlapOf(const Asked& asked) {
     const PointV a = minus(first, asked.middle);
     const PointV b = minus(second, asked.middle);
     const PointV c = minus(third, asked.middle);
-    Verdict verdict{hn::Lt(one, one), hn::Eq(one, one)};
+    Verdict verdict{hn::Lt(one, one), hn::Eq(one, one), hn::Mul(hn::Set(d, CERTIFIED_OVERLAP_MARGIN), asked.delta)};
     verdict.separate(a.x, b.x, c.x, one);
     verdict.separate(a.y, b.y, c.y, one);
     verdict.separate(a.z, b.z, c.z, one);

@@ -88,7 +88,7 @@ struct LaneBits {
 
 HWY_INLINE LaneBits overlapOf(const TriangleAxes& axes, const Places& at) {
     const Floats d;
-    const FloatV margin = hn::Set(d, TriangleCells::kMargin);
+    const FloatV margin = hn::Set(d, axes.margin);
     const FloatV slack = hn::Set(d, axes.slack);
     const FloatV inPlane = insideAlong(axes, TriangleAxes::kNormal, at);
     const FloatV outermost = hn::Neg(margin);
@@ -165,6 +165,7 @@ TriangleCells::TriangleCells(const shader::CertifiedTriangle& triangle) noexcept
     const VoxelPoint& normal = triangle.normal;
     setNormals({second, shader::voxelDifference(third, second), third}, normal, axes_);
     HWY_DYNAMIC_DISPATCH(setShadows)(axes_, second, third);
+    axes_.margin = shader::certifiedOverlapMargin(triangle.delta);
     // As certifiedPlaneMisses() has it.
     const float size = std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z);
     const float cube = triangle.reach * triangle.reach * (triangle.reach + static_cast<float>(2 * kBrickSide));

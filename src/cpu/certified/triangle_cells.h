@@ -23,7 +23,8 @@ struct TriangleAxes {
     Numbers z{};
     Numbers lo{}; ///< the triangle's shadow, and half of a cell's on either side
     Numbers hi{};
-    float slack = 0; ///< voxels along the triangle's normal, which rounding may have turned
+    float margin = 0; ///< voxels: by how much a cell is made smaller and larger on each side
+    float slack = 0;  ///< voxels along the triangle's normal, which rounding may have turned
 };
 
 /// Which cells a triangle passes through, many at a time, as far as that is clear without cutting the triangle: it
@@ -36,8 +37,6 @@ class TriangleCells {
     static constexpr std::uint32_t kSide = 4;
     /// A bit for each cell of a cube: x + kSide (y + kSide z).
     using Bits = std::uint64_t;
-    /// Voxels: by how much a cell is made smaller and larger on each side.
-    static constexpr float kMargin = CERTIFIED_OVERLAP_MARGIN;
     /// Voxels: nothing is said of triangles that may be displaced farther.
     static constexpr float kMostDelta = CERTIFIED_OVERLAP_DELTA;
 

@@ -46,6 +46,13 @@ Corners drawnCorners(std::mt19937_64& random) {
             (axis == 0 ? corner.x : axis == 1 ? corner.y : corner.z) = at;
         }
     }
+    if (chance(random, 0.2)) { // a side that is far shorter than the others
+        const double side = std::pow(10, uniform(random, -5, -1));
+        const std::size_t corner = below(random, 3);
+        const VoxelPoint& at = corners[(corner + 1) % 3];
+        corners[corner] = {at.x + drawn(random, -side, side), at.y + drawn(random, -side, side),
+                           at.z + drawn(random, -side, side)};
+    }
     if (chance(random, 0.05)) {
         corners[1] = corners[0];
     }
