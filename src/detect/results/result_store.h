@@ -8,8 +8,4 @@ namespace voxtact {
 /// What Results have: refuses a desc that no device, or not this one, has room for.
 [[nodiscard]] Result<std::unique_ptr<ResultsImpl>> makeResults(ContextImpl& context, const ResultsDesc& desc);
 
-/// Of `count` queries, under a name for debuggers.
-[[nodiscard]] Result<Owned<VkQueryPool>> makeQueryPool(ContextImpl& context, VkQueryType type, std::uint32_t count,
-                                                       const char* name);
-
 } // namespace voxtact
