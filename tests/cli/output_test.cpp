@@ -120,6 +120,14 @@ TEST_F(OutputTest, FolderThatDoesNotExist) {
     EXPECT_THAT(refused(1, detect({"--output", path("")})), HasSubstr("folder"));
 }
 
+/// Before anything is read, let alone counted.
+TEST_F(OutputTest, NameThatIsTooLong) {
+    writeText(path("no.nii"), "no volume");
+    const std::string file = path(std::string(300, 'a') + ".csv");
+    EXPECT_THAT(refused(1, {"detect", "--volume", path("no.nii"), "--mesh", "builtin:scalpel:500", "--output", file}),
+                AllOf(HasSubstr("cannot write '" + file), HasSubstr("too long")));
+}
+
 TEST_F(OutputTest, NothingIsWrittenOnFailure) {
     writeText(path("out.csv"), "as it was");
     refused(2, detect({"--output", path("out.csv"), "--size", "99999x99999"}));

@@ -67,6 +67,10 @@ Result<void> checkOutput(const fs::path& path) {
     if (::access(folder.c_str(), W_OK | X_OK) != 0) {
         return fileError(path, "the folder '" + folder.string() + "': " + std::generic_category().message(errno));
     }
+    struct stat status {};
+    if (::lstat(path.c_str(), &status) != 0 && errno == ENAMETOOLONG) {
+        return fileError(path, std::generic_category().message(errno));
+    }
     return {};
 }
 
