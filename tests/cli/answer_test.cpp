@@ -183,6 +183,10 @@ TEST_F(AnswerTest, MeshesThatDoNotFitAreNamed) {
     const Ran microns = run(with(plain, {"--mesh-scale", "1000"}));
     EXPECT_EQ(microns.status, 0);
     EXPECT_THAT(microns.err, AllOf(HasSubstr("note: "), HasSubstr("--mesh-scale 0.001")));
+    const Arguments builtin{"detect", "--volume", "builtin:head:16", "--mesh", "builtin:scalpel:500", "--count", "cpu"};
+    EXPECT_EQ(run(builtin).err, "");
+    EXPECT_THAT(run(with(builtin, {"--mesh-scale", "0.5"})).err, HasSubstr("--mesh-scale is about mesh files"));
+    EXPECT_THAT(run(with(builtin, {"--mesh-space", "ras"})).err, HasSubstr("--mesh-space is about mesh files"));
     const std::string far = "1 0 0 900 0 1 0 0 0 0 1 0 0 0 0 1\n";
     writeText(path("far.txt"), far + far);
     const Ran away = run(with(plain, {"--poses", path("far.txt")}));
