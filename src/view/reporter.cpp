@@ -17,6 +17,7 @@ Reporter::Seen Reporter::look(const State& state) {
     seen.settled = state.settled();
     seen.error = state.error;
     seen.question = state.question ? state.question->title : "";
+    seen.field = state.field;
     seen.step = state.loading ? state.loading->step : "";
     seen.loaded = state.loaded.has_value();
     seen.chartFrom = state.chartRange().lo;
@@ -55,6 +56,7 @@ Result<void> Reporter::write(const State& state) {
     report.cube = state.cube;
     report.error = state.error;
     report.question = state.question ? &*state.question : nullptr;
+    report.field = state.field;
     report.loading = state.loading ? &*state.loading : nullptr;
     report.loaded = state.loaded ? &*state.loaded : nullptr;
     report.saving = state.saving ? std::optional(state.saving->share) : std::nullopt;

@@ -24,6 +24,7 @@ class Reporter {
         bool settled = false;
         std::string error;
         std::string question;
+        std::optional<std::string> field;
         std::string step;     ///< of what is being loaded
         bool loaded = false;  ///< it is known how the last loading went
         double chartFrom = 0; ///< values of the curve's chart

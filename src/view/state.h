@@ -195,6 +195,7 @@ struct State {
     std::string status;
     std::string error;
     std::optional<Question> question; ///< a dialog, until it is answered
+    std::optional<std::string> field; ///< what stands in the field for a path that has the keyboard; null: none has
     std::vector<std::string> recent;  ///< files that were opened, the last first
     std::vector<std::string> read;    ///< poses and transfer functions, of all that was opened
     MayWrite mayWrite;                ///< empty: everything may be written

@@ -148,13 +148,14 @@ def session(program, folder):
         with Window(program, server, folder, ["--session", f"{folder}/session.json"]) as window:
             asked = window.until("the question", lambda s: s["question"])["question"]
             assert [file["name"] for file in asked["files"]] == ["volume", "mesh"], asked
-            window.press("Return")  # they are not where the fields still say
-            window.until("the question again", lambda s: s["question"])
-            time.sleep(1)
-            window.type(str(moved / "ct.nii"))
-            window.press("Tab")
-            time.sleep(1)
-            window.type(str(moved / "tool.stl"))
+            window.fill(moved / "ct.nii")
+            window.next_field()
+            window.fill(moved / "nowhere.stl")
+            window.press("Return")
+            window.until("the question for what is still missing",
+                         lambda s: s["question"] and [file["name"] for file in s["question"]["files"]] == ["mesh"]
+                         and s["field"] is not None)
+            window.fill(moved / "tool.stl")
             window.press("Return")
             again = window.until("the session with its files", lambda s: s["settled"])
             assert again["count"] == state["count"] and "moved/ct.nii" in again["command"], again

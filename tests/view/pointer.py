@@ -158,8 +158,7 @@ def save_picture(window, folder, name, width):
     """Asks for a picture that is so large that it takes long; the state when it is being made."""
     for _ in range(3):  # a key that comes and goes within a frame is lost: then a size is taken for the name
         window.press("ctrl+p")
-        time.sleep(1)  # until the dialog has the keyboard, which nothing tells
-        window.type(f"{folder}/{name}")
+        window.fill(f"{folder}/{name}")
         window.hold(0.2, "Tab")
         for side in (width, width):
             window.hold(0.2, "ctrl", "a")

@@ -127,9 +127,22 @@ class Window:
     def dialog(self, keys, path):
         """A dialog that asks for a path, which those keys open."""
         self.press(keys)
-        time.sleep(1)  # until the dialog has the keyboard, which nothing tells
-        self.type(str(path))
+        self.fill(path)
         self.enter()
+
+    def fill(self, path):
+        """Types a path into the field for one, once it has the keyboard."""
+        self.until("a field for a path", lambda s: s["field"] is not None)
+        self.tool("type", "--delay", "30", str(path))
+        self.until(f"{path} in the field", lambda s: s["field"] == str(path))
+
+    def next_field(self):
+        """On to the field below, by a key that is lost where it comes and goes within a frame."""
+        before = self.state()["field"]
+        deadline = time.monotonic() + PATIENCE
+        while self.state()["field"] in (None, before) and time.monotonic() < deadline:
+            self.hold(0.2, "Tab")
+            time.sleep(1)
 
     def enter(self):
         self.hold(0.4, "Return")

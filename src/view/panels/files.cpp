@@ -101,6 +101,9 @@ void drawPathDialog(PathDialog& dialog, State& state) {
     bool done = state.entered;
     done |= ImGui::InputText("##path", &dialog.path,
                              ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+    if (ImGui::IsItemActive()) {
+        state.field = dialog.path;
+    }
     if (dialog.title == kPicture) {
         drawPictureSize(state);
     }
@@ -161,6 +164,7 @@ void askForPicture() {
 }
 
 void drawDialogs(State& state) {
+    state.field.reset();
     drawQuestion(state);
     drawSaving(state);
     if (asked() != nullptr) {

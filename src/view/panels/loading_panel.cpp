@@ -88,6 +88,9 @@ void drawQuestion(State& state) {
         }
         ImGui::SetNextItemWidth(-1);
         ImGui::InputText(("##" + file.name).c_str(), &file.path, ImGuiInputTextFlags_AutoSelectAll);
+        if (ImGui::IsItemActive()) {
+            state.field = file.path;
+        }
     }
     ImGui::Spacing();
     for (std::size_t i = 0; i < question.buttons.size(); ++i) {

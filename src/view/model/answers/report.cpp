@@ -177,6 +177,7 @@ std::string reportText(const StateReport& report) {
     json["settled"] = report.settled;
     json["error"] = report.error;
     json["question"] = questionJson(report.question);
+    json["field"] = report.field ? Json(*report.field) : Json();
     json["loading"] = loadingJson(report.loading);
     json["loaded"] = loadingJson(report.loaded);
     json["saving"] = report.saving ? Json(*report.saving) : Json();

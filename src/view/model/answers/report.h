@@ -31,6 +31,7 @@ struct StateReport {
     std::string device;                       ///< that answered; "host" for cpu
     std::string error;                        ///< of the dialog that is open; empty: none
     const Question* question = nullptr;       ///< the dialog with a choice that is open; null: none
+    std::optional<std::string> field;         ///< what stands in the field for a path that has the keyboard; null: none
     const Loading* loading = nullptr;         ///< null: nothing is being loaded
     const Loading* loaded = nullptr;          ///< how that went which was loaded last; null: not known yet
     const Comparison* comparison = nullptr;   ///< of the methods; null where it is not shown
