@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/guard.h"
 #include "core/base/live.h"
-#include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "core/method/method_table.h"
 #include "gpu/context_impl.h"
 #include "gpu/debug.h"
 #include "gpu/layouts.h"
+#include "gpu/queue_families.h"
 #include "shared.h"
 
 #include <algorithm>
@@ -72,19 +72,6 @@ Result<void> makeSampler(ContextImpl& context, VkFilter filter, VkSampler& out, 
 Result<void> makeSamplers(ContextImpl& context) {
     VOXTACT_TRY(makeSampler(context, VK_FILTER_LINEAR, context.sampler, "linear sampler"));
     return makeSampler(context, VK_FILTER_NEAREST, context.nearestSampler, "nearest sampler");
-}
-
-/// Families that share what is made: each there is, and each once.
-Result<void> checkFamilies(const ContextImpl& context, std::span<const std::uint32_t> families) {
-    for (std::size_t i = 0; i < families.size(); ++i) {
-        constexpr VkQueueFlags kAny = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT | VK_QUEUE_TRANSFER_BIT;
-        const std::string which = "ContextDesc::queueFamilies[" + std::to_string(i) + "]";
-        VOXTACT_TRY(context.checkFamily(families[i], kAny, which.c_str()));
-        if (std::ranges::find(families.first(i), families[i]) != families.begin() + static_cast<std::ptrdiff_t>(i)) {
-            return refuse(which + " is " + std::to_string(families[i]) + ", which is there before");
-        }
-    }
-    return {};
 }
 
 Result<void> makeSetLayout(ContextImpl& context, SetIndex index, std::span<const VkDescriptorSetLayoutBinding> bindings,
@@ -212,11 +199,7 @@ void ContextImpl::log(const std::string& text) const noexcept {
 }
 
 std::vector<VkQueueFamilyProperties> ContextImpl::families() const {
-    std::uint32_t count = 0;
-    vk.GetPhysicalDeviceQueueFamilyProperties(physicalDevice, &count, nullptr);
-    std::vector<VkQueueFamilyProperties> out(count);
-    vk.GetPhysicalDeviceQueueFamilyProperties(physicalDevice, &count, out.data());
-    return out;
+    return queueFamiliesOf(physicalDevice, vk.GetPhysicalDeviceQueueFamilyProperties);
 }
 
 std::uint32_t ContextImpl::timestampBits(std::uint32_t family) const {
@@ -225,18 +208,7 @@ std::uint32_t ContextImpl::timestampBits(std::uint32_t family) const {
 }
 
 Result<void> ContextImpl::checkFamily(std::uint32_t family, VkQueueFlags anyOf, const char* what) const {
-    const std::vector<VkQueueFamilyProperties> all = families();
-    if (family >= all.size()) {
-        return refuse(std::string(what) + " is " + std::to_string(family) + ", the device has " +
-                      std::to_string(all.size()) + " queue families");
-    }
-    if ((all[family].queueFlags & anyOf) == 0) {
-        return refuse(std::string(what) + " is " + std::to_string(family) + ", a family of queues that " +
-                      (anyOf == VK_QUEUE_GRAPHICS_BIT  ? "cannot draw"
-                       : anyOf == VK_QUEUE_COMPUTE_BIT ? "cannot compute"
-                                                       : "can neither draw nor compute"));
-    }
-    return {};
+    return voxtact::checkFamily(families(), family, anyOf, what);
 }
 
 Context::Context(std::unique_ptr<ContextImpl> impl) noexcept : impl_(std::move(impl)) {}
@@ -254,6 +226,7 @@ Context::~Context() {
 
 Result<Context> Context::create(const ContextDesc& desc) {
     return guard([&]() -> Result<Context> {
+        VOXTACT_TRY(checkFamilies(desc));
         CheckReport report = check(desc);
         if (!report.usable) {
             return refusal(report);
@@ -271,7 +244,6 @@ Result<Context> Context::create(const ContextDesc& desc) {
         impl->methods = std::move(report.methods);
         impl->vk.load(desc.getInstanceProcAddr, desc.instance, desc.device, debugUtilsEnabled(desc));
         readProperties(*impl);
-        VOXTACT_TRY(checkFamilies(*impl, desc.queueFamilies));
         impl->fragmentsAtOnce = desc.fragmentsAtOnce == 0 ? kUsualFragments : desc.fragmentsAtOnce;
         impl->queueFamilies.assign(desc.queueFamilies.begin(), desc.queueFamilies.end());
         for (const auto make : {makeSamplers, makeSetLayouts, makeLayouts, makeOutputLayouts}) {

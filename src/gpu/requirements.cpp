@@ -2,6 +2,7 @@
 #include "gpu/requirements.h"
 #include "core/base/guard.h"
 #include "core/method/method_table.h"
+#include "gpu/queue_families.h"
 
 #include <algorithm>
 #include <array>
@@ -210,6 +211,9 @@ FeatureRequest::FeatureRequest(const VkPhysicalDeviceFeatures2* supported) noexc
 CheckReport check(const ContextDesc& desc) {
     CheckReport report;
     checkHandles(desc, report);
+    if (const Result<void> families = checkFamilies(desc); !families.ok()) {
+        report.missing.push_back(families.error().text);
+    }
     const EnabledFeatures enabled = readFeatures(desc.enabledFeatures);
     const bool has[] = {enabled.dynamicRendering,         enabled.synchronization2, enabled.occlusionQueryPrecise,
                         enabled.fragmentStoresAndAtomics, enabled.geometryShader,   enabled.shaderFloat64};

@@ -4,6 +4,8 @@
 #include "arrays.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstring>
 #include <iterator>
 
 namespace voxtact::python {
@@ -106,6 +108,11 @@ void Answer::addContacts(std::size_t first, std::vector<Contact> piece) {
     const std::size_t room = question.mostContacts - std::min<std::size_t>(contacts.size(), question.mostContacts);
     if (piece.size() > room) {
         piece.resize(room);
+    }
+    // Behind the last member there is what was in that memory before: equal contacts are equal as bytes, too.
+    constexpr std::size_t kEnd = offsetof(Contact, label) + sizeof(Contact::label);
+    for (Contact& contact : piece) {
+        std::memset(reinterpret_cast<std::byte*>(&contact) + kEnd, 0, sizeof(Contact) - kEnd);
     }
     append(contacts, std::move(piece), first);
 }

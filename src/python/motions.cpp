@@ -9,7 +9,7 @@ namespace voxtact::python {
 namespace {
 
 TouchRow noTouch() {
-    TouchRow row{kNone, -1, {kNone, kNone, kNone}, 0, {}};
+    TouchRow row{.at = kNone, .triangle = -1, .position = {kNone, kNone, kNone}, .label = 0, .world_from_object = {}};
     for (auto& each : row.world_from_object) {
         each.fill(kNone);
     }
@@ -17,7 +17,8 @@ TouchRow noTouch() {
 }
 
 TouchRow rowOf(const MotionTouch& touch, const LabelData* labels) {
-    TouchRow row{touch.at, touch.triangle, touch.position, 0, {}};
+    TouchRow row{
+        .at = touch.at, .triangle = touch.triangle, .position = touch.position, .label = 0, .world_from_object = {}};
     if (labels != nullptr) {
         row.label = labels->values[labelAt(*labels, touch.position)];
     }

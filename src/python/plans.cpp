@@ -13,18 +13,18 @@ namespace voxtact::python {
 namespace {
 
 PathRow rowOf(const PlannedPath& path, bool withLabels) {
-    PathRow row{path.entry,
-                path.position,
-                path.length,
-                path.angle.value_or(kNone),
-                static_cast<std::uint8_t>(path.safety),
-                path.clearance.lo,
-                path.clearance.hi,
-                static_cast<std::uint8_t>(path.end),
-                -1,
-                0,
-                {kNone, kNone, kNone},
-                {kNone, kNone, kNone}};
+    PathRow row{.entry = path.entry,
+                .position = path.position,
+                .length = path.length,
+                .angle = path.angle.value_or(kNone),
+                .safety = static_cast<std::uint8_t>(path.safety),
+                .lo = path.clearance.lo,
+                .hi = path.clearance.hi,
+                .end = static_cast<std::uint8_t>(path.end),
+                .obstacle = -1,
+                .label = 0,
+                .nearest = {kNone, kNone, kNone},
+                .onPath = {kNone, kNone, kNone}};
     if (path.nearest) {
         // Obstacles without those labels begin with what is opaque.
         row.obstacle = static_cast<std::int32_t>(path.nearest->obstacle) + (withLabels ? 0 : 1);

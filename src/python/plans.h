@@ -45,15 +45,19 @@ struct PlanWish {
 /// A row of Plan::paths.
 struct PathRow {
     std::uint32_t entry;
+    std::uint32_t between0 = 0; ///< this and its like: equal rows are equal as bytes, too
     std::array<double, 3> position;
     double length;
     double angle;        ///< NaN: the entries' surface has no normal there
     std::uint8_t safety; ///< Safety
+    std::array<std::uint8_t, 7> between1{};
     double lo;
     double hi;
-    std::uint8_t end;      ///< ClearanceEnd
+    std::uint8_t end; ///< ClearanceEnd
+    std::array<std::uint8_t, 3> between2{};
     std::int32_t obstacle; ///< 0: labels, 1: what is opaque; -1: nothing is nearest
     std::int32_t label;    ///< what follows is NaN where nothing is nearest, and this 0
+    std::int32_t between3 = 0;
     std::array<double, 3> nearest;
     std::array<double, 3> onPath;
 };

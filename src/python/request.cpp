@@ -56,8 +56,9 @@ void read(Question& question, const std::string& name, const py::handle& value) 
         question.outputs.labels = value.cast<bool>();
     } else if (name == "max_depth") {
         question.outputs.maxDepth = value.cast<double>();
-        if (std::isnan(question.outputs.maxDepth)) { // which is looked at only where contacts are asked for
-            refuseArgument("max_depth is nan; it must be positive and finite");
+        // It is looked at only where contacts are asked for.
+        if (!std::isfinite(question.outputs.maxDepth) || question.outputs.maxDepth <= 0) {
+            refuseArgument("max_depth is " + py::str(value).cast<std::string>() + "; it must be positive and finite");
         }
     } else if (name == "samples_per_voxel") {
         question.samplesPerVoxel = value.cast<std::uint32_t>();

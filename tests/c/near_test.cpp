@@ -292,7 +292,8 @@ TEST(CNear, APoseOnTheWayIsTheCppInterfaces) {
         EXPECT_EQ(
             vxt_pose_between(from.data(), to.data(), 0.3, static_cast<vxt_interpolation>(none), nullptr, pose.data()),
             VXT_ERROR_INVALID_ARGUMENT);
-        EXPECT_STREQ(vxt_last_error(nullptr), "the interpolation is none of the enumeration's");
+        EXPECT_EQ(std::string(vxt_last_error(nullptr)),
+                  "there is no interpolation number " + std::to_string(static_cast<std::uint32_t>(none)));
     }
     EXPECT_STREQ(vxt_interpolation_name(VXT_INTERPOLATION_SLERP), "slerp");
 }

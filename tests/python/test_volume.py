@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Volumes from arrays and from the objects of other libraries: the same answers, wherever they come from."""
 import os
+import types
 
 import numpy as np
 import pytest
@@ -260,6 +261,61 @@ def test_simple_itk(nifti):
     expected = vx.read_volume(nifti)
     same_place(vx.read_volume(ItkImage(expected)), expected)
     np.testing.assert_array_equal(answers(vx.read_volume(ItkImage(expected))), answers(expected))
+
+
+class CutItkImage(ItkImage):
+    """What itk cut out of a larger image: the origin is that of the larger one, and the first voxel has a number."""
+
+    first = (2, -3, 1)
+
+    def GetOrigin(self):
+        volume = self.volume
+        return tuple(volume.origin - volume.direction @ (volume.spacing * self.first))
+
+    def GetBufferedRegion(self):
+        return types.SimpleNamespace(GetIndex=lambda: self.first)
+
+
+def test_part_of_an_itk_image(nifti):
+    expected = vx.read_volume(nifti)
+    same_place(vx.read_volume(CutItkImage(expected)), expected)
+
+
+class NamedArray:
+    """What xarray.DataArray has."""
+
+    def __init__(self, array, dims):
+        self.array, self.dims = array, dims
+
+    def __array__(self, dtype=None):
+        return self.array
+
+
+def test_named_dimensions():
+    array = noise()
+    expected = vx.read_volume(array, affine=oblique())
+    same_place(vx.read_volume(NamedArray(array, ("z", "y", "x")), affine=oblique()), expected)
+    turned = vx.read_volume(NamedArray(np.ascontiguousarray(array.T), ("x", "y", "z")), affine=oblique())
+    same_place(turned, expected)
+    np.testing.assert_array_equal(turned.array, expected.array)
+    np.testing.assert_array_equal(vx.read_volume(NamedArray(array, ("time", "row", "column")), affine=oblique()).array, array)
+    with pytest.raises(vx.InvalidArgumentError, match=r"dimensions are \('y', 'z', 'x'\)"):
+        vx.read_volume(NamedArray(array, ("y", "z", "x")), affine=oblique())
+
+
+class Thing:
+    """Of which numpy makes an array of one object, as of a dataset of pydicom."""
+
+    def __array__(self, dtype=None):
+        out = np.empty((), dtype=object)
+        out[()] = self
+        return out
+
+
+@pytest.mark.parametrize("source", [Thing(), [Thing(), Thing()], {}, object()])
+def test_what_is_no_volume(source):
+    with pytest.raises(TypeError, match="no volume can be made of"):
+        vx.read_volume(source)
 
 
 def test_dicom_by_pydicom(tmp_path):

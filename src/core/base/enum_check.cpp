@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::array kFilters{Filter::Hardware, Filter::Exact};
 constexpr std::array kBoundaries{Boundary::Auto, Boundary::Range, Boundary::Clamp};
+constexpr std::array kInterpolations{Interpolation::Screw, Interpolation::Slerp};
 constexpr std::array kTypes{ScalarType::UInt8, ScalarType::Int16, ScalarType::UInt16, ScalarType::Float32};
 
 template <class Values, class Value> Result<void> checkOneOf(const Values& values, Value value, const char* what) {
@@ -36,6 +37,10 @@ Result<void> checkBoundary(Boundary boundary) {
 
 Result<void> checkScalarType(ScalarType type) {
     return checkOneOf(kTypes, type, "scalar type");
+}
+
+Result<void> checkInterpolation(Interpolation interpolation) {
+    return checkOneOf(kInterpolations, interpolation, "interpolation");
 }
 
 } // namespace voxtact

@@ -3,6 +3,7 @@
 
 #include "voxtact/data.h"
 #include "voxtact/methods.h"
+#include "voxtact/motion.h"
 
 namespace voxtact {
 
@@ -11,5 +12,6 @@ namespace voxtact {
 [[nodiscard]] Result<void> checkFilter(Filter filter);
 [[nodiscard]] Result<void> checkBoundary(Boundary boundary);
 [[nodiscard]] Result<void> checkScalarType(ScalarType type);
+[[nodiscard]] Result<void> checkInterpolation(Interpolation interpolation);
 
 } // namespace voxtact

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/geometry/rigid_motion.h"
+#include "core/base/enum_check.h"
 #include "core/base/guard.h"
 #include "core/base/refuse.h"
 #include "core/base/text.h"
@@ -206,13 +207,6 @@ double RigidMotion::magnitude(const Box& box) const {
         most = std::max(most, 2 * glm::length(place) + 2 * glm::length(dvec3(from_[3])) + 2 * glm::length(centre_));
     });
     return most + glm::length(along_) + glm::length(across_);
-}
-
-Result<void> checkInterpolation(Interpolation interpolation) {
-    if (interpolation != Interpolation::Screw && interpolation != Interpolation::Slerp) {
-        return refuse("the interpolation is none of the enumeration's");
-    }
-    return {};
 }
 
 Result<Mat4> poseBetween(const Mat4& from, const Mat4& to, double parameter, Interpolation interpolation,

@@ -60,7 +60,4 @@ class RigidMotion {
     glm::dvec3 across_{}; ///< the chord of its arc; none for slerp
 };
 
-/// Refuses a number that is none of the enumeration's.
-[[nodiscard]] Result<void> checkInterpolation(Interpolation interpolation);
-
 } // namespace voxtact

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/method/certified_constants.h"
+#include "core/base/enum_check.h"
 #include "core/base/infinity.h"
 #include "core/base/refuse.h"
 #include "core/base/text.h"

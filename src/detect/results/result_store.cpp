@@ -35,7 +35,9 @@ std::uint32_t transformsFor(const ContextImpl& context, std::uint32_t maxPairs) 
 
 Result<void> checkInto(const ContextImpl& context, const ResultsDesc& desc) {
     if (desc.into.buffer == VK_NULL_HANDLE) {
-        return {};
+        return desc.into.offset == 0 && desc.into.size == 0
+                   ? Result<void>()
+                   : refuse("ResultsDesc::into has an offset or a size, but no buffer");
     }
     if (desc.into.size == VK_WHOLE_SIZE) {
         return refuse("ResultsDesc::into has the size VK_WHOLE_SIZE; it must be said in bytes");
@@ -101,10 +103,9 @@ Result<void> checkDesc(const ContextImpl& context, const ResultsDesc& desc) {
     }
     VOXTACT_TRY(checkLabelRoom(context, desc));
     VOXTACT_TRY(checkInto(context, desc));
-    if (desc.timestamps) {
-        constexpr VkQueueFlags kAny = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
-        VOXTACT_TRY(context.checkFamily(desc.queueFamily, kAny, "ResultsDesc::queueFamily"));
-    }
+    constexpr VkQueueFlags kTimed = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+    const VkQueueFlags anyOf = desc.timestamps ? kTimed : ~VkQueueFlags{0};
+    VOXTACT_TRY(context.checkFamily(desc.queueFamily, anyOf, "ResultsDesc::queueFamily"));
     if (desc.timestamps && context.timestampBits(desc.queueFamily) == 0) {
         return Error{ErrorCode::Unsupported, 0,
                      "queue family " + std::to_string(desc.queueFamily) + " has no timestamps"};

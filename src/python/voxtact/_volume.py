@@ -138,6 +138,17 @@ def _in_z_y_x(array: npt.NDArray[Any], axes: Optional[str]) -> npt.NDArray[Any]:
     return array.T if axes == "xyz" else array
 
 
+def _named_axes(source: Any) -> Optional[str]:
+    """The order of an array whose dimensions have names, as xarray's have: where they are x, y and z."""
+    names = getattr(source, "dims", None)
+    if not isinstance(names, tuple) or set(names) != {"x", "y", "z"}:
+        return None
+    order = "".join(names)
+    if order not in ("zyx", "xyz"):
+        raise InvalidArgumentError(f"the array's dimensions are {names}; transpose it to ('z', 'y', 'x')")
+    return order
+
+
 def _stored(array: npt.NDArray[Any], notes: list[str]) -> npt.NDArray[Any]:
     """One of the types that voxtact keeps, as its readers of files choose them."""
     kind, size = array.dtype.kind, array.dtype.itemsize
@@ -264,6 +275,9 @@ def _of_itk(image: Any) -> Volume:
     affine = np.eye(4)
     affine[:3, :3] = columns * spacing
     affine[:3, 3] = origin
+    if hasattr(image, "GetBufferedRegion"):  # itk's: the origin is where voxel 0 would be, and the array may begin at another
+        first = image.GetBufferedRegion().GetIndex()
+        affine[:3, 3] += affine[:3, :3] @ np.array([float(first[axis]) for axis in range(3)])
     return _volume_of_array(array, affine, "lps", "zyx", "ITK image")
 
 
@@ -334,11 +348,15 @@ def read_volume(source: Any, *, affine: Optional[npt.ArrayLike] = None, space: O
         if space is not None:
             raise InvalidArgumentError("space= is for arrays and vtkImageData: an ITK image is in LPS")
         return _of_itk(source)
-    if not (hasattr(source, "__array__") or hasattr(source, "__array_interface__") or hasattr(source, "__buffer__")
-            or isinstance(source, (list, memoryview))):
-        raise TypeError(f"no volume can be made of a {type(source).__module__}.{type(source).__qualname__}: give a path, "
+    is_array = (hasattr(source, "__array__") or hasattr(source, "__array_interface__") or hasattr(source, "__buffer__")
+                or isinstance(source, (list, memoryview)))
+    voxels = array_of(source, "the array") if is_array else None
+    if voxels is None or (voxels.dtype == object and not isinstance(source, np.ndarray)):
+        kind = type(source[0]) if isinstance(source, list) and source else type(source)
+        listed_as = "a list of " if isinstance(source, list) and source else "a "
+        raise TypeError(f"no volume can be made of {listed_as}{kind.__module__}.{kind.__qualname__}: give a path, "
                         "an array with affine=, or an image of nibabel, SimpleITK, itk or VTK")
     if affine is None:
         raise InvalidArgumentError("an array needs affine=, (4,4), voxel numbers (x, y, z, 1) to mm; np.eye(4) for "
                                    "voxels of 1 mm with the first one at the origin")
-    return _volume_of_array(source, affine, space or "ras", axes, "array")
+    return _volume_of_array(voxels, affine, space or "ras", axes or _named_axes(source), "array")

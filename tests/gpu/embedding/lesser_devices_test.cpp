@@ -284,6 +284,11 @@ TEST_F(LesserDeviceTest, FamiliesAreThereAndOnceEach) {
     wanted.queueFamilies = kTwice;
     EXPECT_THAT(Context::create(wanted).error().text,
                 HasSubstr("ContextDesc::queueFamilies[1] is 1, which is there before"));
+    EXPECT_EQ(Context::create(wanted).error().code, ErrorCode::InvalidArgument);
+    const CheckReport report = check(wanted);
+    EXPECT_FALSE(report.usable);
+    EXPECT_THAT(report.missing,
+                testing::Contains(HasSubstr("ContextDesc::queueFamilies[1] is 1, which is there before")));
 }
 
 } // namespace
