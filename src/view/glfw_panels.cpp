@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "view/glfw_panels.h"
 
+#include "view/model/document/typed.h"
 #include "view/panels/panels.h"
 
 #define GLFW_INCLUDE_NONE
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <string>
 
 namespace voxtact::view {
 
@@ -40,6 +42,26 @@ void onDrop(GLFWwindow* window, int count, const char** paths) {
     static_cast<State*>(glfwGetWindowUserPointer(window))->drop(count, paths);
 }
 
+bool isInPath(GLFWwindow* window) {
+    return static_cast<const State*>(glfwGetWindowUserPointer(window))->field.has_value();
+}
+
+void onCharacter(GLFWwindow* window, unsigned character) {
+    ImGui_ImplGlfw_CharCallback(window, typedCharacter(character, isInPath(window)));
+}
+
+/// Dear ImGui's clipboard, `window` being the user's pointer. Valid until the next call.
+const char* clipboard(void* window) {
+    static std::string text;
+    auto* const of = static_cast<GLFWwindow*>(window);
+    const char* const copied = glfwGetClipboardString(of);
+    if (copied == nullptr) {
+        return nullptr;
+    }
+    text = pastedText(copied, isInPath(of));
+    return text.c_str();
+}
+
 /// Dear ImGui counts them by when frames come.
 void countClicks(const Pointer::Seen& seen) {
     ImGuiIO& io = ImGui::GetIO();
@@ -68,6 +90,8 @@ Panels::Panels(GLFWwindow* window, std::span<const unsigned char> font) {
     glfwSetCursorPosCallback(window, onMove);
     glfwSetMouseButtonCallback(window, onButton);
     ImGui_ImplGlfw_InitForVulkan(window, true);
+    glfwSetCharCallback(window, onCharacter);
+    ImGui::GetIO().GetClipboardTextFn = clipboard;
     ImGui::GetIO().BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
 }
 

@@ -138,6 +138,23 @@ def session(program, folder):
             again = window.until("the session", lambda s: s["settled"])
             for name in ("count", "hit", "pose", "holes", "points"):
                 assert again[name] == state[name], (name, again, state)
+            # Over one that is there it is asked first; a key that is held is no answer.
+            window.press("Next")
+            window.until("a pose of its own", lambda s: s["pose"][HEIGHT] == 58 and s["settled"])
+            window.press("ctrl+s")
+            window.fill(f"{folder}/session.json")
+            window.hold(1.5, "Return")
+            window.until("the dialog going on", lambda s: s["field"] == f"{folder}/session.json")
+            assert json.loads(pathlib.Path(folder, "session.json").read_text()) == saved
+            window.enter()
+            window.until("the session that is replaced", lambda s: "the session is in" in s["status"])
+            replaced = json.loads(pathlib.Path(folder, "session.json").read_text())
+            assert replaced != saved, replaced
+            window.press("Prior")  # as it was, and once more without a question
+            window.until("the pose as before", lambda s: s["pose"][HEIGHT] == 59 and s["settled"])
+            window.dialog("ctrl+s", f"{folder}/session.json")
+            window.until("no dialog", lambda s: s["field"] is None)
+            assert json.loads(pathlib.Path(folder, "session.json").read_text())["instrument"] == saved["instrument"]
             window.press("ctrl+q")
             window.end()
         # Its files are elsewhere now.

@@ -181,7 +181,8 @@ void drawContacts(State& state) {
                 ImGui::TextUnformatted(mmText(grid, 1, place).c_str());
             }
             ImGui::TableNextColumn();
-            ImGui::Text("%.1f", contact.value);
+            // Of whole numbers no more than they have; and none is so long that it is cut.
+            ImGui::Text(std::abs(contact.value) < 1e5 ? "%.1f" : "%.4g", contact.value);
         }
     }
     ImGui::EndTable();

@@ -51,6 +51,19 @@ struct PathDialog {
     const char* button;
     std::string path;
     Result<void> (*act)(const std::filesystem::path& path, State& state);
+    std::string written{};  ///< the path that it wrote last: it is written again without a question
+    std::string replaced{}; ///< a path that is there already, and has been asked about
+    bool takesKeyboard = false;
+
+    /// Whether to go on: a file that is there is replaced when that was asked about. Opening replaces nothing.
+    [[nodiscard]] bool mayAct() {
+        std::error_code ignored;
+        if (title == kOpen || path == written || path == replaced || !std::filesystem::exists(path, ignored)) {
+            return true;
+        }
+        replaced = path;
+        return false;
+    }
 };
 
 std::array<PathDialog, 5>& dialogs() {
@@ -94,30 +107,45 @@ void drawPathDialog(PathDialog& dialog, State& state) {
         if (dialog.title == kOpen) {
             dialog.path.clear();
         }
+        dialog.replaced.clear();
         state.entered = state.escaped = false; // they were pressed before it was there
+        dialog.takesKeyboard = true;
+    }
+    if (std::exchange(dialog.takesKeyboard, false)) {
         ImGui::SetKeyboardFocusHere();
     }
-    // By the window's keys: of those Dear ImGui knows only what is down at a frame.
-    bool done = state.entered;
-    done |= ImGui::InputText("##path", &dialog.path,
-                             ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+    const bool isAsked = !dialog.replaced.empty() && dialog.replaced == dialog.path;
+    const bool entered = ImGui::InputText("##path", &dialog.path,
+                                          ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+    // By the window's keys: of those Dear ImGui knows only what is down at a frame. One that is held is pressed again
+    // and again for it, which is no answer.
+    bool done = state.entered || (entered && !isAsked);
+    dialog.takesKeyboard = entered && isAsked;
     if (ImGui::IsItemActive()) {
         state.field = dialog.path;
     }
     if (dialog.title == kPicture) {
         drawPictureSize(state);
     }
-    done |= ImGui::Button(dialog.button);
+    if (isAsked) {
+        ImGui::TextColored(verdictColour(2), "It is there already. Replace it?");
+    }
+    done |= ImGui::Button(isAsked ? "replace" : dialog.button);
     ImGui::SameLine();
     if (ImGui::Button("cancel") || state.escaped) {
         ImGui::CloseCurrentPopup();
+    } else if (done && !dialog.path.empty() && !dialog.mayAct()) {
+        dialog.takesKeyboard = true;
     } else if (done && !dialog.path.empty()) {
         ImGui::CloseCurrentPopup();
         state.say(std::string(dialog.title) + ": " + dialog.path);
         if (const Result<void> acted = dialog.act(dialog.path, state); !acted.ok()) {
             state.say({});
             state.complain(acted.error().text);
+        } else {
+            dialog.written = dialog.path;
         }
+        dialog.replaced.clear();
     }
     ImGui::EndPopup();
 }

@@ -39,7 +39,10 @@ void drawPlace(State& state) {
     if (ImGui::IsItemDeactivated()) {
         state.history.end();
     }
-    const Vec3 angles = anglesOf(state.document.edit.pose());
+    Vec3 angles = anglesOf(state.document.edit.pose());
+    for (double& angle : angles) {
+        angle = std::round(10 * angle) / 10 + 0.0; // no -0.0
+    }
     ImGui::TextColored(quietColour(), "turned %.1f, %.1f, %.1f degrees about x, y, z", angles[0], angles[1], angles[2]);
 }
 

@@ -132,6 +132,7 @@ void takePlainKey(State& state, const KeyPress& press) {
         state.remove(state.document.edit.chosen);
         break;
     case GLFW_KEY_ESCAPE:
+        state.helpOpen = false;
         state.cancelLoading = state.loading.has_value();
         state.maximised = Maximised::None;
         break;
@@ -162,6 +163,8 @@ void takeBlankKey(State& state, const KeyPress& press) {
         state.quit = true;
     } else if (press.key == GLFW_KEY_F1) {
         state.helpOpen = !state.helpOpen;
+    } else if (press.key == GLFW_KEY_ESCAPE) {
+        state.helpOpen = false;
     }
 }
 
@@ -208,7 +211,10 @@ void row(const char* key, const char* does) {
 
 void takeKeys(State& state) {
     const std::vector<KeyPress> keys = std::exchange(state.keys, {});
-    const auto pressed = [&keys](int key) { return std::ranges::find(keys, key, &KeyPress::key) != keys.end(); };
+    // One that is held answers what it was pressed for, and not what that leads to.
+    const auto pressed = [&keys](int key) {
+        return std::ranges::any_of(keys, [key](const KeyPress& press) { return press.key == key && !press.held; });
+    };
     state.entered = pressed(GLFW_KEY_ENTER) || pressed(GLFW_KEY_KP_ENTER);
     state.escaped = pressed(GLFW_KEY_ESCAPE);
     if (!state.error.empty()) {

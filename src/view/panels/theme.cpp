@@ -62,6 +62,7 @@ void setColours(Theme theme) {
         ImGui::StyleColorsLight(&style);
         style.Colors[ImGuiCol_ChildBg] = rgb(250, 250, 251);
         style.Colors[ImGuiCol_WindowBg] = rgb(233, 236, 240);
+        style.Colors[ImGuiCol_TextDisabled] = rgb(92, 98, 106);
     }
 }
 

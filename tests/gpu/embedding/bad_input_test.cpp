@@ -115,7 +115,8 @@ TEST_F(BadInputTest, MorePairsThanABufferHolds) {
 
 TEST_F(BadInputTest, MorePairsThanThereIsRoomForBesideTheQueues) {
     // The pairs themselves fit, what motions need of each does not.
-    const std::uint32_t pairs = context().impl().limits.maxStorageBufferRange / sizeof(shader::MotionState);
+    const auto pairs =
+        static_cast<std::uint32_t>(context().impl().limits.maxStorageBufferRange / sizeof(shader::MotionState));
     const VkDeviceSize range = context().impl().limits.maxStorageBufferRange;
     const VkDeviceSize most = context().impl().maxAllocation;
     const std::string limit = range <= most ? "maxStorageBufferRange is " + std::to_string(range)

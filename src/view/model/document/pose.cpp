@@ -57,7 +57,11 @@ Vec3 axisOf(const Mat4& world_from_object, std::size_t axis) noexcept {
 
 Mat4 placedAt(const Mat4& world_from_object, const Vec3& world) noexcept {
     Mat4 out = world_from_object;
-    std::ranges::copy(world, out.begin() + 12);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (!std::isnan(world[axis])) {
+            out[12 + axis] = std::clamp(world[axis], -kFarthestPlace, kFarthestPlace);
+        }
+    }
     return out;
 }
 

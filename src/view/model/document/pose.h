@@ -21,7 +21,11 @@ enum class Axes { World, Own };
 /// The same about an axis of unit length in the world.
 [[nodiscard]] Mat4 turnedAbout(const Mat4& world_from_object, const Vec3& axis, double degrees) noexcept;
 
-/// The same pose with the object's origin at a point of the world.
+/// mm along an axis: no farther is anything put, whatever is typed or dragged.
+inline constexpr double kFarthestPlace = 1e12;
+
+/// The same pose with the object's origin at a point of the world, as far as kFarthestPlace. What is not a number
+/// stays.
 [[nodiscard]] Mat4 placedAt(const Mat4& world_from_object, const Vec3& world) noexcept;
 
 /// Where the object's origin is, mm.
