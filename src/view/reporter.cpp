@@ -61,6 +61,7 @@ Result<void> Reporter::write(const State& state) {
     report.loaded = state.loaded ? &*state.loaded : nullptr;
     report.saving = state.saving ? std::optional(state.saving->share) : std::nullopt;
     report.comparison = state.comparing ? &state.comparison : nullptr;
+    report.notes = state.notes;
     report.status = state.status;
     report.frame = state.frame;
     report.frameTimes = &state.frameTimes;

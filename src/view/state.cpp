@@ -29,7 +29,8 @@ State::State(Given opened)
     : blank(false), volume(std::move(opened.volume)), meshes(std::move(opened.meshes)),
       labels(std::move(opened.labels)), values(opened.values), coarserBy(opened.coarserBy),
       deviceOption(std::move(opened.deviceOption)), deviceName(std::move(opened.deviceName)),
-      document(std::move(opened.document)), window(opened.values), read(std::move(opened.read)) {
+      notes(std::move(opened.notes)), document(std::move(opened.document)), window(opened.values),
+      read(std::move(opened.read)) {
     // The volume was checked when it was read.
     texture_from_world = textureFromWorld(volume.grid).value();
     histogram = histogramOf(volume.view(), document.domain);
@@ -239,6 +240,7 @@ Given State::giveBack() {
     out.values = values;
     out.coarserBy = coarserBy;
     out.deviceOption = deviceOption;
+    out.notes = std::exchange(notes, {});
     out.read = std::exchange(read, {});
     State next;
     passOn(next, std::nullopt);

@@ -34,10 +34,11 @@ struct Given {
     std::optional<Labels> labels;
     ValueRange values; ///< smallest and largest voxel
     Document document;
-    std::uint32_t coarserBy = 1;   ///< Sources::coarser of the volume that is here
-    std::vector<std::string> read; ///< paths of poses and transfer functions, which no Sources have
-    std::string deviceOption;      ///< as --device was given; for copied commands
-    std::string deviceName;        ///< that draws
+    std::uint32_t coarserBy = 1;    ///< Sources::coarser of the volume that is here
+    std::vector<std::string> read;  ///< paths of poses and transfer functions, which no Sources have
+    std::string deviceOption;       ///< as --device was given; for copied commands
+    std::string deviceName;         ///< that draws
+    std::vector<std::string> notes; ///< what strikes in it, a sentence each
 };
 
 /// What a file can be to the window.
@@ -164,6 +165,7 @@ struct State {
     std::uint32_t coarserBy = 1;
     std::string deviceOption;
     std::string deviceName;
+    std::vector<std::string> notes; ///< of what was opened: what strikes in it
     Mat4 texture_from_world{};
     Histogram histogram;               ///< over the transfer function's domain
     std::vector<MethodChoice> methods; ///< that this machine can do

@@ -118,6 +118,22 @@ def coarser(program, folder):
         window.end()
 
 
+def notes(program, folder):
+    """What strikes in what is opened is in the window, not on standard error alone."""
+    metres = pathlib.Path(folder, "tool.obj")
+    metres.write_text("v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nf 1 2 3\n")
+    scene = ["--volume", "builtin:head:32", "--mesh", "builtin:scalpel:300", "--preset", "ct-lung", "--device", "cpu"]
+    with Server() as server, Window(program, server, folder, scene) as window:
+        state = window.until("the first answer", lambda s: s["settled"])
+        assert [text[:16] for text in state["notes"]] == ["--preset ct-lung"], state["notes"]
+        window.open(metres)
+        state = window.until("the mesh", lambda s: len(s["meshes"]) == 2 and s["settled"])
+        assert len(state["notes"]) == 1 and "--mesh-scale 1000" in state["notes"][0], state["notes"]
+        window.press("ctrl+q")
+        out, err = window.process.communicate(timeout=60)
+        assert window.process.returncode == 0 and out == "" and err.count("note: ") == 2, err
+
+
 def session(program, folder):
     volume = make(program, folder, "volume", "builtin:ct:32", "ct.nii")
     tool = make(program, folder, "mesh", "builtin:scalpel:600", "tool.stl")
@@ -295,6 +311,6 @@ def refusals(program, folder):
 
 
 if __name__ == "__main__":
-    CHECKS = {"files": files, "loading": loading, "coarser": coarser, "session": session, "lost": lost,
-              "refusals": refusals}
+    CHECKS = {"files": files, "loading": loading, "coarser": coarser, "session": session, "notes": notes,
+              "lost": lost, "refusals": refusals}
     sys.exit(main(sys.argv[1:], CHECKS, __doc__))

@@ -3,6 +3,7 @@
 
 #include "app/output/standard_streams.h"
 #include "core/base/text.h"
+#include "voxtact/looks.h"
 
 #include <set>
 
@@ -37,6 +38,17 @@ std::vector<std::string> opacityNotes(const TransferFunctionDesc& function, cons
                         ": nothing touches");
     }
     return notes;
+}
+
+std::string presetNote(const std::string& preset, const ValueRange& data) {
+    constexpr double kLeast = -200; // air is at -1000: where nothing is below this the numbers are others
+    const LookPreset* const known = findLookPreset(preset);
+    if (known == nullptr || !known->hounsfield || data.lo <= kLeast) {
+        return {};
+    }
+    return "--preset " + preset + " is in Hounsfield units, in which air is -1000; the volume's values, " +
+           number(data.lo) + " to " + number(data.hi) +
+           ", are others: --opacity and --transfer-function say what is seen";
 }
 
 void printOpacityNotes(const TransferFunctionDesc& function, const ValueRange& data, double threshold,

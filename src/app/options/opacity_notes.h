@@ -17,7 +17,11 @@ namespace voxtact::app {
                                                     double threshold, const std::string& source,
                                                     std::string_view who = "the transfer function");
 
-/// Says it on standard error, and each note once, however many volumes it is true of. One thread at a time.
+/// What is to be said of a preset in Hounsfield units and values that are others; empty: nothing.
+[[nodiscard]] std::string presetNote(const std::string& preset, const ValueRange& data);
+
+/// Says what opacityNotes() has on standard error, and each note once, however many volumes it is true of. One thread
+/// at a time.
 void printOpacityNotes(const TransferFunctionDesc& function, const ValueRange& data, double threshold,
                        const std::string& source, std::string_view who = "the transfer function");
 

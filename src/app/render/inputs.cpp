@@ -123,17 +123,6 @@ Result<void> setCuts(const RenderOptions& options, RenderInputs& inputs) {
     return {};
 }
 
-/// Air is at -1000: where nothing is below -200 the numbers are others.
-void noteOtherUnits(const RenderOptions& options, const ValueRange& values) {
-    constexpr double kLeast = -200;
-    const LookPreset* preset = findLookPreset(options.preset);
-    if (preset != nullptr && preset->hounsfield && values.lo > kLeast) {
-        printNote("--preset " + options.preset +
-                  " is in Hounsfield units, in which air is -1000; the volume's values, " + number(values.lo) + " to " +
-                  number(values.hi) + ", are others: --opacity and --transfer-function say what is seen");
-    }
-}
-
 Result<void> setLook(const RenderOptions& options, RenderInputs& inputs) {
     Result<std::vector<ControlPoint>> points = loadControlPoints(options.transferFunction);
     VOXTACT_TRY(points);
@@ -144,7 +133,9 @@ Result<void> setLook(const RenderOptions& options, RenderInputs& inputs) {
         VOXTACT_TRY(colours);
         inputs.colours = std::move(*colours);
     }
-    noteOtherUnits(options, inputs.values);
+    if (const std::string note = presetNote(options.preset, inputs.values); !note.empty()) {
+        printNote(note);
+    }
     Result<Look> look = options.preset.empty() ? Look{defaultRamp(inputs.domain), plainColours()}
                                                : lookNamed(options.preset, inputs.values);
     VOXTACT_TRY(look);

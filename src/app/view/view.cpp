@@ -51,7 +51,8 @@ void addReaders(view::WindowDesc& desc, const ViewerOptions& options, const std:
                         1,
                         std::move(files->read),
                         device,
-                        {}};
+                        {},
+                        std::move(files->notes)};
         out.document.method = out.document.method ? *out.document.method : standard(session);
         return out;
     };

@@ -2,7 +2,10 @@
 #include "app/view/view_options.h"
 
 #include "app/options/inputs.h"
+#include "app/options/opacity_notes.h"
 #include "app/options/output_paths.h"
+#include "app/output/size_note.h"
+#include "app/output/standard_streams.h"
 #include "core/base/try.h"
 #include "core/method/method_table.h"
 #include "view/model/files/session_file.h"
@@ -82,6 +85,24 @@ Result<view::Document> documentOf(const ViewerOptions& options, ScalarType type,
     return document;
 }
 
+void note(const std::string& text, Opened& opened) {
+    printNote(text);
+    opened.notes.push_back(text);
+}
+
+/// Most often a mesh that strikes by its size is in another unit than was said.
+Result<void> noteSizes(const view::Sources& sources, Opened& opened) {
+    const Box volume = transformBox(worldFromTexture(opened.volume.grid), {{0, 0, 0}, {1, 1, 1}});
+    for (std::size_t i = 0; i < opened.meshes.size(); ++i) {
+        const Result<MeshFacts> facts = checkMesh(opened.meshes[i].view());
+        VOXTACT_TRY(facts);
+        if (const std::string said = sizeNote(diagonal(facts->bounds), diagonal(volume)); !said.empty()) {
+            note("the mesh " + sources.meshes[i].path + " " + said, opened);
+        }
+    }
+    return {};
+}
+
 std::string nameOf(const std::string& source) {
     const std::string name = std::filesystem::path(source).filename().string();
     return name.empty() ? source : name;
@@ -111,7 +132,7 @@ Result<void> load(const view::Sources& sources, Opened& opened, view::Progress& 
     }
     opened.volume = std::move(*volume);
     opened.values = *values;
-    return {};
+    return noteSizes(sources, opened);
 }
 
 /// A session, and the files that it names; nothing of one that cannot be read.
@@ -253,6 +274,9 @@ Result<Opened> openDocument(const ViewerOptions& options, view::Progress& progre
     VOXTACT_TRY(document);
     opened.document = std::move(*document);
     opened.document.sources = sources;
+    if (const std::string said = presetNote(options.preset, opened.values); !said.empty()) {
+        note(said, opened);
+    }
     opened.read.push_back(options.poses.string());
     opened.read.push_back(options.transferFunction.path.string());
     for (std::size_t mesh = 1; mesh < sources.meshes.size(); ++mesh) {

@@ -107,6 +107,11 @@ void drawClearance(const State& state) {
 
 void drawAnswer(State& state) {
     heading("Does it touch?");
+    for (const std::string& note : state.notes) {
+        ImGui::PushStyleColor(ImGuiCol_Text, verdictColour(2));
+        ImGui::TextWrapped("%s", note.c_str());
+        ImGui::PopStyleColor();
+    }
     if (state.chosenAnswer() == nullptr) {
         ImGui::TextColored(quietColour(), "asking ...");
         drawMethods(state);

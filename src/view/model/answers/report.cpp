@@ -181,6 +181,7 @@ std::string reportText(const StateReport& report) {
     json["loading"] = loadingJson(report.loading);
     json["loaded"] = loadingJson(report.loaded);
     json["saving"] = report.saving ? Json(*report.saving) : Json();
+    json["notes"] = report.notes;
     json["status"] = report.status;
     json["command"] = edit.chosen < report.commands.size() ? report.commands[edit.chosen] : "";
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
