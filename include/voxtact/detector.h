@@ -143,7 +143,7 @@ struct ResultsDesc {
     std::uint32_t maxPairs = 1; ///< pairs of the largest batch
     bool readBack = true;       ///< a host-visible copy is kept, for cmdReadBack() and read()
     bool timestamps = false;    ///< cmdDetect() writes a timestamp before and after its work, read by gpuMilliseconds()
-    std::uint32_t queueFamily = 0; ///< of the queue that will execute; with timestamps refused where it has none
+    std::uint32_t queueFamily = 0; ///< with timestamps: of the queue that will execute; refused where it has none
     std::optional<OutputRoom> room = std::nullopt; ///< nothing: for detectors without outputs
     /// Clusters of 64 triangles, once a pair, that a dispatch of the projection conservative looks at, at most; a
     /// batch of more is more dispatches. For each, one looks at 2^16 bricks and cells of large triangles at most, and

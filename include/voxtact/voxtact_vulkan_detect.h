@@ -152,7 +152,7 @@ typedef struct vxt_results_desc {
     uint32_t max_pairs;     ///< pairs of the largest batch; default 1
     uint32_t read_back;     ///< a host copy is kept, for vxt_results_read(); default 1
     uint32_t timestamps;    ///< the device time is measured; default 0
-    uint32_t queue_family;  ///< of the queue that will execute; default 0
+    uint32_t queue_family;  ///< with timestamps: of the queue that will execute; default 0
     /// CONSERVATIVE: clusters that a dispatch looks at, at most, 16 to 262144: voxtact::ResultsDesc::clustersAtOnce.
     /// Default 0: by max_pairs. VXT_NO_CLUSTERS: none, for results that are for other projections.
     uint32_t clusters_at_once;

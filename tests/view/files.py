@@ -6,6 +6,7 @@
   files.py PROGRAM loading   a volume is loaded while the instrument moves, and one is cancelled
   files.py PROGRAM coarser   a volume that is too large is shown as a coarser copy
   files.py PROGRAM session   a session whose files are gone, and the files that were opened last
+  files.py PROGRAM notes     what strikes in what is opened is said in the window
   files.py PROGRAM lost      the surface and the device are lost (a layer in the folder VOXTACT_FAULT_LAYERS says so)
   files.py PROGRAM refusals  no display, and what cannot be shown
 
@@ -130,7 +131,7 @@ def notes(program, folder):
         state = window.until("the mesh", lambda s: len(s["meshes"]) == 2 and s["settled"])
         assert len(state["notes"]) == 1 and "--mesh-scale 1000" in state["notes"][0], state["notes"]
         window.press("ctrl+q")
-        out, err = window.process.communicate(timeout=60)
+        out, err = window.process.communicate(timeout=PATIENCE)
         assert window.process.returncode == 0 and out == "" and err.count("note: ") == 2, err
 
 

@@ -166,7 +166,7 @@ def save_picture(window, folder, name, width):
             window.hold(0.2, "Tab")
         time.sleep(1)
         window.enter()
-        window.until("a picture that is being made", lambda s: s["saving"] is not None or s["error"] is not None)
+        window.until("a picture that is being made", lambda s: s["saving"] is not None or s["error"])
         time.sleep(0.5)
         state = window.state()
         if state["saving"] is not None:

@@ -2,7 +2,7 @@
 """The window as a person uses it: on an X server of its own, by keys and the pointer, under validation. What keys.py,
 pointer.py, files.py, meshes.py and soak.py have in common.
 
-Nothing sleeps for a fixed time but the hand that drags, which tries again: each step is waited for, at most so long as
+Little sleeps for a fixed time, as the hand that drags, which tries again: each step is waited for, at most so long as
 a slow machine may need.
 """
 import csv
@@ -126,6 +126,7 @@ class Window:
 
     def dialog(self, keys, path):
         """A dialog that asks for a path, which those keys open."""
+        self.until("no field for a path", lambda s: s["field"] is None)
         self.press(keys)
         self.fill(path)
         self.enter()
@@ -140,7 +141,9 @@ class Window:
         """On to the field below, by a key that is lost where it comes and goes within a frame."""
         before = self.state()["field"]
         deadline = time.monotonic() + PATIENCE
-        while self.state()["field"] in (None, before) and time.monotonic() < deadline:
+        while self.state()["field"] in (None, before):
+            if time.monotonic() > deadline:
+                fail(f"not within {PATIENCE} s: the field below; the last state: {self.state()}")
             self.hold(0.2, "Tab")
             time.sleep(1)
 

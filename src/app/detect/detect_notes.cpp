@@ -22,12 +22,6 @@ void addSome(const std::vector<std::string>& some, std::vector<std::string>& not
     }
 }
 
-/// Far away, a place leaves nothing of a size.
-Mat4 withoutPlace(Mat4 pose) {
-    std::fill(pose.begin() + 12, pose.begin() + 15, 0.0);
-    return pose;
-}
-
 } // namespace
 
 FitNotes::FitNotes(const DetectOptions& options, const DetectInputs& inputs)
@@ -38,9 +32,7 @@ void FitNotes::look(const Window& window, const Grid& grid) {
     for (const WindowItem& item : window.items) {
         if (poses_[item.job] == 0) {
             const Box& object = inputs_.bounds[options_.jobs.jobs[item.job].mesh];
-            // The corners of a box that is turned are farther apart than its own: too little to matter here.
-            sizes_[item.job] = sizeNote(diagonal(transformBox(withoutPlace(item.poses.front()), object)),
-                                        diagonal(transformBox(worldFromTexture(grid), {{0, 0, 0}, {1, 1, 1}})));
+            sizes_[item.job] = sizeNote(object, item.poses.front(), grid);
         }
         poses_[item.job] += item.poses.size();
     }

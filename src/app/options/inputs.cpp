@@ -113,9 +113,11 @@ Result<MeshData> loadMesh(const std::string& source, const MeshOptions& options)
         mesh->notes.push_back(std::to_string(facts->degenerate) + " of " + std::to_string(facts->triangles) +
                               " triangles have no area: only the projection conservative counts them");
     }
-    if (builtin && (options.scale != 1 || options.space == "ras")) {
-        mesh->notes.push_back(std::string(options.scale != 1 ? "--mesh-scale" : "--mesh-space") +
-                              " is about mesh files: a builtin is in mm, LPS");
+    if (builtin && options.scale != 1) {
+        mesh->notes.emplace_back("--mesh-scale is about mesh files: a builtin is in mm");
+    }
+    if (builtin && options.space == "ras") {
+        mesh->notes.emplace_back("--mesh-space is about mesh files: a builtin is in LPS");
     }
     printNotes(source, mesh->notes);
     return mesh;

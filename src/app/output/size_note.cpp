@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/output/size_note.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -15,13 +16,18 @@ std::string rounded(double length) {
     return text;
 }
 
-} // namespace
-
 double diagonal(const Box& box) {
     return std::hypot(box.hi[0] - box.lo[0], box.hi[1] - box.lo[1], box.hi[2] - box.lo[2]);
 }
 
-std::string sizeNote(double mesh, double volume) {
+/// Far away, a place leaves nothing of a size.
+Mat4 withoutPlace(Mat4 pose) {
+    std::fill(pose.begin() + 12, pose.begin() + 15, 0.0);
+    return pose;
+}
+
+/// Of a mesh so long against a volume so long, mm.
+std::string noteOf(double mesh, double volume) {
     // A thousand, give or take what instruments and anatomies differ by.
     constexpr double kStriking = 250;
     if (!(mesh > 0) || !(volume > 0)) {
@@ -36,6 +42,14 @@ std::string sizeNote(double mesh, double volume) {
                " mm: if it is in micrometres, --mesh-scale 0.001 says so";
     }
     return {};
+}
+
+} // namespace
+
+std::string sizeNote(const Box& object, const Mat4& world_from_object, const Grid& volume) {
+    // The corners of a box that is turned are farther apart than its own: too little to matter here.
+    return noteOf(diagonal(transformBox(withoutPlace(world_from_object), object)),
+                  diagonal(transformBox(worldFromTexture(volume), {{0, 0, 0}, {1, 1, 1}})));
 }
 
 std::string unitHint(const Box& bounds) {

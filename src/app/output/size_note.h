@@ -8,10 +8,8 @@
 /// What strikes in the size of a mesh: most often its unit is another one than was said.
 namespace voxtact::app {
 
-/// The length of a box's diagonal.
-[[nodiscard]] double diagonal(const Box& box);
-/// What a mesh so long is against a volume so long; empty where nothing strikes. Both in mm.
-[[nodiscard]] std::string sizeNote(double mesh, double volume);
+/// What a mesh in a box of object space is against a volume, under a pose; empty where nothing strikes.
+[[nodiscard]] std::string sizeNote(const Box& object, const Mat4& world_from_object, const Grid& volume);
 /// What a mesh of this size is by itself, in mm.
 [[nodiscard]] std::string unitHint(const Box& bounds);
 

@@ -91,13 +91,13 @@ void note(const std::string& text, Opened& opened) {
 }
 
 /// Most often a mesh that strikes by its size is in another unit than was said.
-Result<void> noteSizes(const view::Sources& sources, Opened& opened) {
-    const Box volume = transformBox(worldFromTexture(opened.volume.grid), {{0, 0, 0}, {1, 1, 1}});
-    for (std::size_t i = 0; i < opened.meshes.size(); ++i) {
-        const Result<MeshFacts> facts = checkMesh(opened.meshes[i].view());
+Result<void> noteSizes(Opened& opened) {
+    for (const view::Instrument& instrument : opened.document.edit.instruments) {
+        const Result<MeshFacts> facts = checkMesh(opened.meshes.at(instrument.mesh).view());
         VOXTACT_TRY(facts);
-        if (const std::string said = sizeNote(diagonal(facts->bounds), diagonal(volume)); !said.empty()) {
-            note("the mesh " + sources.meshes[i].path + " " + said, opened);
+        const std::string said = sizeNote(facts->bounds, instrument.world_from_object, opened.volume.grid);
+        if (!said.empty()) {
+            note("the mesh " + opened.document.sources.meshes.at(instrument.mesh).path + " " + said, opened);
         }
     }
     return {};
@@ -132,7 +132,7 @@ Result<void> load(const view::Sources& sources, Opened& opened, view::Progress& 
     }
     opened.volume = std::move(*volume);
     opened.values = *values;
-    return noteSizes(sources, opened);
+    return {};
 }
 
 /// A session, and the files that it names; nothing of one that cannot be read.
@@ -257,6 +257,7 @@ Result<Opened> openDocument(const ViewerOptions& options, view::Progress& progre
         VOXTACT_TRY(document);
         opened.document = std::move(*document);
         VOXTACT_TRY(load(opened.document.sources, opened, progress));
+        VOXTACT_TRY(noteSizes(opened));
         return opened;
     }
     view::Sources sources;
@@ -274,7 +275,9 @@ Result<Opened> openDocument(const ViewerOptions& options, view::Progress& progre
     VOXTACT_TRY(document);
     opened.document = std::move(*document);
     opened.document.sources = sources;
-    if (const std::string said = presetNote(options.preset, opened.values); !said.empty()) {
+    const TransferFunctionOptions& function = options.transferFunction;
+    const bool isPresets = function.path.empty() && !function.opacity; // of the others it has the colours alone
+    if (const std::string said = presetNote(options.preset, opened.values); isPresets && !said.empty()) {
         note(said, opened);
     }
     opened.read.push_back(options.poses.string());
@@ -282,6 +285,7 @@ Result<Opened> openDocument(const ViewerOptions& options, view::Progress& progre
     for (std::size_t mesh = 1; mesh < sources.meshes.size(); ++mesh) {
         opened.document.edit.instruments.push_back({mesh, opened.document.edit.pose(), true});
     }
+    VOXTACT_TRY(noteSizes(opened));
     return opened;
 }
 
@@ -298,6 +302,7 @@ Result<Opened> openWanted(const view::Wanted& wanted, view::Progress& progress) 
         opened.document.edit.curve = defaultRamp(opened.document.domain);
         opened.document.edit.colours = plainColours();
     }
+    VOXTACT_TRY(noteSizes(opened));
     return opened;
 }
 

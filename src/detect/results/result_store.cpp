@@ -103,9 +103,10 @@ Result<void> checkDesc(const ContextImpl& context, const ResultsDesc& desc) {
     }
     VOXTACT_TRY(checkLabelRoom(context, desc));
     VOXTACT_TRY(checkInto(context, desc));
-    constexpr VkQueueFlags kTimed = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
-    const VkQueueFlags anyOf = desc.timestamps ? kTimed : ~VkQueueFlags{0};
-    VOXTACT_TRY(context.checkFamily(desc.queueFamily, anyOf, "ResultsDesc::queueFamily"));
+    if (desc.timestamps) {
+        constexpr VkQueueFlags kAny = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+        VOXTACT_TRY(context.checkFamily(desc.queueFamily, kAny, "ResultsDesc::queueFamily"));
+    }
     if (desc.timestamps && context.timestampBits(desc.queueFamily) == 0) {
         return Error{ErrorCode::Unsupported, 0,
                      "queue family " + std::to_string(desc.queueFamily) + " has no timestamps"};

@@ -299,6 +299,18 @@ def _of_vtk_image(image: Any, space: Space) -> Volume:
     return _volume_of_array(vtk_to_numpy(scalars).reshape(z, y, x), affine, space, "zyx", "vtkImageData")
 
 
+def _refuse_what_is_no_array(source: Any) -> None:
+    """Of a thing that does not say that it is one: numpy makes an array of objects of nearly everything."""
+    is_array = (hasattr(source, "__array__") or hasattr(source, "__array_interface__") or hasattr(source, "__buffer__")
+                or isinstance(source, (list, memoryview)))
+    if is_array and (isinstance(source, np.ndarray) or array_of(source, "the array").dtype != object):
+        return
+    of_what = isinstance(source, list) and len(source) > 0
+    kind = type(source[0]) if of_what else type(source)
+    raise TypeError(f"no volume can be made of a {'list of ' if of_what else ''}{kind.__module__}.{kind.__qualname__}: give a "
+                    "path, an array with affine=, or an image of nibabel, SimpleITK, itk or VTK")
+
+
 def read_volume(source: Any, *, affine: Optional[npt.ArrayLike] = None, space: Optional[Space] = None,
                 axes: Optional[Literal["zyx", "xyz"]] = None, frame: Optional[int] = None, series: str = "") -> Volume:
     """A volume from a file, an array, or an image of another library.
@@ -348,15 +360,10 @@ def read_volume(source: Any, *, affine: Optional[npt.ArrayLike] = None, space: O
         if space is not None:
             raise InvalidArgumentError("space= is for arrays and vtkImageData: an ITK image is in LPS")
         return _of_itk(source)
-    is_array = (hasattr(source, "__array__") or hasattr(source, "__array_interface__") or hasattr(source, "__buffer__")
-                or isinstance(source, (list, memoryview)))
-    voxels = array_of(source, "the array") if is_array else None
-    if voxels is None or (voxels.dtype == object and not isinstance(source, np.ndarray)):
-        kind = type(source[0]) if isinstance(source, list) and source else type(source)
-        listed_as = "a list of " if isinstance(source, list) and source else "a "
-        raise TypeError(f"no volume can be made of {listed_as}{kind.__module__}.{kind.__qualname__}: give a path, "
-                        "an array with affine=, or an image of nibabel, SimpleITK, itk or VTK")
+    kind = getattr(source, "dtype", None)
+    if kind is None or kind == object:
+        _refuse_what_is_no_array(source)
     if affine is None:
         raise InvalidArgumentError("an array needs affine=, (4,4), voxel numbers (x, y, z, 1) to mm; np.eye(4) for "
                                    "voxels of 1 mm with the first one at the origin")
-    return _volume_of_array(voxels, affine, space or "ras", axes or _named_axes(source), "array")
+    return _volume_of_array(source, affine, space or "ras", axes or _named_axes(source), "array")

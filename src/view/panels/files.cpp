@@ -94,6 +94,28 @@ const char* keyOf(const char* title) {
     return title == kOpen ? "Ctrl+O" : title == kSession ? "Ctrl+S" : title == kPicture ? "Ctrl+P" : nullptr;
 }
 
+/// Those that are pressed.
+struct Buttons {
+    bool goOn = false;
+    bool cancel = false;
+};
+
+Buttons drawButtons(const PathDialog& dialog, bool isAsked) {
+    Buttons pressed;
+    if (isAsked) {
+        ImGui::TextColored(verdictColour(2), "It is there already. Replace it?");
+        // Where the other button was: of a double click the second is no answer.
+        pressed.cancel = ImGui::Button("cancel");
+        ImGui::SameLine();
+        pressed.goOn = ImGui::Button("replace");
+    } else {
+        pressed.goOn = ImGui::Button(dialog.button);
+        ImGui::SameLine();
+        pressed.cancel = ImGui::Button("cancel");
+    }
+    return pressed;
+}
+
 void drawPathDialog(PathDialog& dialog, State& state) {
     ImGui::SetNextWindowSize({ImGui::GetFontSize() * 30, 0});
     if (!ImGui::BeginPopupModal(dialog.title, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
@@ -127,12 +149,9 @@ void drawPathDialog(PathDialog& dialog, State& state) {
     if (dialog.title == kPicture) {
         drawPictureSize(state);
     }
-    if (isAsked) {
-        ImGui::TextColored(verdictColour(2), "It is there already. Replace it?");
-    }
-    done |= ImGui::Button(isAsked ? "replace" : dialog.button);
-    ImGui::SameLine();
-    if (ImGui::Button("cancel") || state.escaped) {
+    const Buttons buttons = drawButtons(dialog, isAsked);
+    done |= buttons.goOn;
+    if (buttons.cancel || state.escaped) {
         ImGui::CloseCurrentPopup();
     } else if (done && !dialog.path.empty() && !dialog.mayAct()) {
         dialog.takesKeyboard = true;
@@ -142,7 +161,7 @@ void drawPathDialog(PathDialog& dialog, State& state) {
         if (const Result<void> acted = dialog.act(dialog.path, state); !acted.ok()) {
             state.say({});
             state.complain(acted.error().text);
-        } else {
+        } else if (dialog.title != kPicture) { // which is not written yet, and may be cancelled
             dialog.written = dialog.path;
         }
         dialog.replaced.clear();

@@ -183,6 +183,9 @@ void takeKey(State& state, const KeyPress& press) {
 
 void answerQuestion(Question& question, const std::vector<KeyPress>& keys) {
     for (const KeyPress& press : keys) {
+        if (press.held) { // it answered what it was pressed for
+            continue;
+        }
         if (press.key == GLFW_KEY_ENTER || press.key == GLFW_KEY_KP_ENTER) {
             question.chosen = 0;
         } else if (press.key == GLFW_KEY_ESCAPE) {

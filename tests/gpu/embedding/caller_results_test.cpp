@@ -235,10 +235,6 @@ TEST_F(CallerResultsTest, WhatHasNoRoomIsRefusedByName) {
     for (const BufferRange nowhere : {BufferRange{VK_NULL_HANDLE, 64, 0}, BufferRange{VK_NULL_HANDLE, 0, 240}}) {
         EXPECT_THAT(refusal({.maxPairs = 10, .into = nowhere}), HasSubstr("an offset or a size, but no buffer"));
     }
-    for (const bool timestamps : {false, true}) {
-        EXPECT_THAT(refusal({.timestamps = timestamps, .queueFamily = 99}),
-                    HasSubstr("ResultsDesc::queueFamily is 99, the device has "));
-    }
     const VkDeviceSize last = std::numeric_limits<VkDeviceSize>::max() / 4096 * 4096;
     EXPECT_THAT(refusal({.maxPairs = 10, .into = {mine.buffer, last, 4096}}),
                 HasSubstr("ResultsDesc::into of 4096 bytes cannot begin at byte " + std::to_string(last)));
