@@ -184,7 +184,8 @@ TEST(TriangleCellsTest, FewAreUnclear) {
             unclear += kCubeCells - static_cast<std::size_t>(std::popcount(overlap.some | overlap.none));
         });
     }
-    EXPECT_LT(unclear, some / 10) << some;
+    std::cout << some << " pass, " << unclear << " are unclear\n";
+    EXPECT_LT(unclear, some / 100); // with a margin of 1/128 voxel a twentieth
 }
 
 /// What may be anywhere near, and what is large, is for others.
