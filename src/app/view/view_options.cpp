@@ -15,6 +15,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+
 namespace voxtact::app {
 
 namespace {
@@ -90,14 +92,17 @@ void note(const std::string& text, Opened& opened) {
     opened.notes.push_back(text);
 }
 
-/// Most often a mesh that strikes by its size is in another unit than was said.
+/// Most often a mesh that strikes by its size is in another unit than was said. One that is new has the chosen one's
+/// pose.
 Result<void> noteSizes(Opened& opened) {
-    for (const view::Instrument& instrument : opened.document.edit.instruments) {
-        const Result<MeshFacts> facts = checkMesh(opened.meshes.at(instrument.mesh).view());
+    const view::Edit& edit = opened.document.edit;
+    for (std::size_t mesh = 0; mesh < opened.meshes.size(); ++mesh) {
+        const Result<MeshFacts> facts = checkMesh(opened.meshes[mesh].view());
         VOXTACT_TRY(facts);
-        const std::string said = sizeNote(facts->bounds, instrument.world_from_object, opened.volume.grid);
-        if (!said.empty()) {
-            note("the mesh " + opened.document.sources.meshes.at(instrument.mesh).path + " " + said, opened);
+        const auto known = std::ranges::find(edit.instruments, mesh, &view::Instrument::mesh);
+        const Mat4& pose = (known != edit.instruments.end() ? *known : edit.instrument()).world_from_object;
+        if (const std::string said = sizeNote(facts->bounds, pose, opened.volume.grid); !said.empty()) {
+            note("the mesh " + opened.document.sources.meshes[mesh].path + " " + said, opened);
         }
     }
     return {};
