@@ -186,7 +186,7 @@ void drawContacts(State& state) {
                 ImGui::TextUnformatted(mmText(grid, 1, place).c_str());
             }
             ImGui::TableNextColumn();
-            // Of whole numbers no more than they have; and none is so long that it is cut.
+            // None is so long that it is cut off.
             ImGui::Text(std::abs(contact.value) < 1e5 ? "%.1f" : "%.4g", contact.value);
         }
     }
