@@ -11,8 +11,8 @@
 
 /// In deltas of the triangle: by how much a cell is made smaller and larger on each side. A point of certifiedClip()
 /// may be displaced by two. Rounding adds no more than two here: a place on an axis is off by less than 2^-20 of its
-/// distance from the cell, which is a few voxels more than `reach`, of which the delta has 2^-18. Edges are differences
-/// of corners, off by 2^-24 of each component, however short they are.
+/// distance from the cell, which is at most a few voxels more than `reach`; and the delta is at least 2^-18 of that.
+/// Edges are differences of corners, off by 2^-24 of each component, however short they are.
 #define CERTIFIED_OVERLAP_MARGIN 8.0f
 /// Voxels: nothing is said of triangles that may be displaced farther, nor of those that reach farther.
 #define CERTIFIED_OVERLAP_DELTA 0.00048828125f

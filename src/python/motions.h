@@ -26,7 +26,7 @@ struct TouchRow {
     std::int64_t triangle; ///< -1: there is none
     std::array<double, 3> position;
     std::int32_t label;
-    std::int32_t between = 0;                               ///< so that equal rows are equal as bytes, too
+    std::int32_t between = 0;                               ///< so that equal rows are equal as bytes
     std::array<std::array<double, 4>, 4> world_from_object; ///< row by row
 };
 

@@ -45,7 +45,7 @@ struct PlanWish {
 /// A row of Plan::paths.
 struct PathRow {
     std::uint32_t entry;
-    std::uint32_t between0 = 0; ///< this and its like: equal rows are equal as bytes, too
+    std::uint32_t between0 = 0; ///< as the others of this name, so that equal rows are equal as bytes
     std::array<double, 3> position;
     double length;
     double angle;        ///< NaN: the entries' surface has no normal there

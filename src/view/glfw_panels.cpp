@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "view/glfw_panels.h"
 
-#include "view/model/document/typed.h"
+#include "view/model/document/decimal_comma.h"
 #include "view/panels/panels.h"
 
 #define GLFW_INCLUDE_NONE

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "view/model/document/pose.h"
-#include "view/model/document/typed.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -43,14 +42,6 @@ TEST(ViewPose, IsPutNoFartherThanMayBe) {
     const double none = std::numeric_limits<double>::quiet_NaN();
     EXPECT_EQ(originOf(placedAt(kPose, {infinite, -1e39, none})), (Vec3{kFarthestPlace, -kFarthestPlace, 30}));
     EXPECT_EQ(originOf(moved(kPose, {infinite, 0, 0}, Axes::World))[0], kFarthestPlace);
-}
-
-TEST(ViewPose, ADecimalCommaIsAPointButInAPath) {
-    EXPECT_EQ(typedCharacter(',', false), unsigned{'.'});
-    EXPECT_EQ(typedCharacter(',', true), unsigned{','});
-    EXPECT_EQ(typedCharacter('5', false), unsigned{'5'});
-    EXPECT_EQ(pastedText("-1,5", false), "-1.5");
-    EXPECT_EQ(pastedText("a,b.nii", true), "a,b.nii");
 }
 
 TEST(ViewPose, TurnsAboutTheWorldsAxisThroughTheTip) {

@@ -2,8 +2,8 @@
 """The window as a person uses it: on an X server of its own, by keys and the pointer, under validation. What keys.py,
 pointer.py, files.py, meshes.py and soak.py have in common.
 
-Little sleeps for a fixed time, as the hand that drags, which tries again: each step is waited for, at most so long as
-a slow machine may need.
+Steps wait for what they lead to, as long as a slow machine may need. Where nothing tells (a hand that drags, a key that
+may be lost) they sleep, and try again.
 """
 import csv
 import json

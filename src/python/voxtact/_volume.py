@@ -300,7 +300,7 @@ def _of_vtk_image(image: Any, space: Space) -> Volume:
 
 
 def _refuse_what_is_no_array(source: Any) -> None:
-    """Of a thing that does not say that it is one: numpy makes an array of objects of nearly everything."""
+    """Raises TypeError for a thing of which numpy makes no array but one of objects, as it does of nearly everything."""
     is_array = (hasattr(source, "__array__") or hasattr(source, "__array_interface__") or hasattr(source, "__buffer__")
                 or isinstance(source, (list, memoryview)))
     if is_array and (isinstance(source, np.ndarray) or array_of(source, "the array").dtype != object):
@@ -360,8 +360,8 @@ def read_volume(source: Any, *, affine: Optional[npt.ArrayLike] = None, space: O
         if space is not None:
             raise InvalidArgumentError("space= is for arrays and vtkImageData: an ITK image is in LPS")
         return _of_itk(source)
-    kind = getattr(source, "dtype", None)
-    if kind is None or kind == object:
+    dtype = getattr(source, "dtype", None)
+    if dtype is None or dtype == object:
         _refuse_what_is_no_array(source)
     if affine is None:
         raise InvalidArgumentError("an array needs affine=, (4,4), voxel numbers (x, y, z, 1) to mm; np.eye(4) for "

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <string>
 
-/// What is typed or pasted into a field. Dear ImGui leaves commas out of numbers, and 1,5 would be 15: a decimal comma
-/// is a point. In the field for a path it stays.
+/// Dear ImGui drops commas from numbers, so that 1,5 would be 15. What is typed or pasted into a number therefore has a
+/// point for each comma; a path keeps its commas.
 namespace voxtact::view {
 
 [[nodiscard]] inline unsigned typedCharacter(unsigned character, bool isPath) noexcept {
