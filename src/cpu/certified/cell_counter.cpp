@@ -64,20 +64,21 @@ CellCounter::Cube CellCounter::cubeOf(const Part& part, const Place& from) noexc
     return cube;
 }
 
-TriangleCells::Bits CellCounter::countCube(const Cube& cube, unsigned& certain) noexcept {
+CellCounter::Left CellCounter::countCube(const Cube& cube, unsigned& certain) noexcept {
     Bits counted = 0;
     for (const Place& corner : corners_) {
         counted |= bitIn(corner, cube.first); // it is not cut off there
     }
     counted &= cube.mayBeOpaque & cube.allOpaque;
-    Bits left = cube.mayBeOpaque & ~counted;
-    if (left != 0) {
+    Left left{cube.mayBeOpaque & ~counted, 0};
+    if (left.cells != 0) {
         if (!overlap_) {
             overlap_.emplace(*triangle_);
         }
-        const TriangleCells::Overlap overlap = overlap_->of(left, cube.first);
+        const TriangleCells::Overlap overlap = overlap_->of(left.cells, cube.first);
         counted |= overlap.some & cube.allOpaque;
-        left &= ~(counted | overlap.none);
+        left.cells &= ~(counted | overlap.none);
+        left.passed = left.cells & overlap.some;
     }
     certain += bitsIn(counted);
     return left;

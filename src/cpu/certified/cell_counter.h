@@ -28,8 +28,9 @@ class CellCounter {
 
     /// Before another triangle, which must outlive what is asked of it.
     void begin(const shader::CertifiedTriangle& triangle) noexcept;
-    /// Returns how many fragments are certain. Calls `open(x, y, z)` for those cells of the volume that are still to be
-    /// decided. Expects a triangle that TriangleCells may be asked of.
+    /// Returns how many fragments are certain. Calls `open(cell, passes)` for those cells of the volume that are still
+    /// to be decided; `passes`: the triangle certainly does through the cell (TriangleCells::Overlap). Expects a
+    /// triangle that TriangleCells may be asked of.
     template <class Open> [[nodiscard]] unsigned count(const Part& part, const Open& open) {
         constexpr auto kSide = static_cast<std::int32_t>(TriangleCells::kSide);
         unsigned certain = 0;
@@ -38,10 +39,12 @@ class CellCounter {
             for (from[1] = part.within.lo[1]; from[1] <= part.within.hi[1]; from[1] += kSide) {
                 for (from[0] = part.within.lo[0]; from[0] <= part.within.hi[0]; from[0] += kSide) {
                     const Cube cube = cubeOf(part, from);
-                    for (Bits left = countCube(cube, certain); left != 0; left &= left - 1) {
+                    const Left found = countCube(cube, certain);
+                    for (Bits left = found.cells; left != 0; left &= left - 1) {
                         const std::int32_t number = std::countr_zero(left);
-                        open(cube.first[0] + number % kSide, cube.first[1] + number / kSide % kSide,
-                             cube.first[2] + number / (kSide * kSide));
+                        open(Place{cube.first[0] + number % kSide, cube.first[1] + number / kSide % kSide,
+                                   cube.first[2] + number / (kSide * kSide)},
+                             (found.passed >> static_cast<unsigned>(number) & 1U) != 0);
                     }
                 }
             }
@@ -57,8 +60,13 @@ class CellCounter {
     };
 
     [[nodiscard]] static Cube cubeOf(const Part& part, const Place& from) noexcept;
-    /// Adds to `certain`, and returns the cells that are left.
-    [[nodiscard]] Bits countCube(const Cube& cube, unsigned& certain) noexcept;
+    /// The cells that are left, and those of them that the triangle passes through.
+    struct Left {
+        Bits cells = 0;
+        Bits passed = 0;
+    };
+    /// Adds to `certain`.
+    [[nodiscard]] Left countCube(const Cube& cube, unsigned& certain) noexcept;
 
     const shader::CertifiedTriangle* triangle_ = nullptr;
     std::optional<TriangleCells> overlap_; ///< of that, once it is of use

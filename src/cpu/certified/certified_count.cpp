@@ -5,7 +5,7 @@
 namespace voxtact::cpu {
 
 namespace {
-struct Counting {
+struct Counts {
     static constexpr bool kCounts = true;
 };
 } // namespace
@@ -13,7 +13,7 @@ struct Counting {
 CertifiedTally countCertain(const CertifiedJob& job) {
     const CertifiedSink none;
     return job.volume.image.visit(
-        [&]<class Kept>(const Kept* voxels) { return Decider<Kept, Counting>(job, voxels, none).run(); });
+        [&]<class Kept>(const Kept* voxels) { return Decider<Kept, Counts>(job, voxels, none).run(); });
 }
 
 } // namespace voxtact::cpu

@@ -5,7 +5,10 @@
 #include "cpu/certified/box_look.h"
 #include "cpu/certified/cell_counter.h"
 #include "cpu/certified/likely_runs.h"
+#include "cpu/certified/part_counter.h"
+#include "cpu/certified/precise_fragments.h"
 #include "cpu/certified/run_counter.h"
+#include "cpu/certified/vertex_proofs.h"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +16,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
+#include <optional>
 #include <vector>
 
 namespace voxtact::cpu {
@@ -28,11 +31,14 @@ template <class Kept, class Mode> class Decider {
   public:
     Decider(const CertifiedJob& job, const Kept* voxels, const CertifiedSink& sink)
         : job_(job), cells_(job, voxels), sink_(sink), item_(job.occupancy.item()), table_(job.occupancy.table()),
-          look_(job.occupancy.look()), counter_(job), placed_(job.mesh, job.transform),
+          look_(job.occupancy.look()), precise_(job, cells_), placed_(job.mesh, job.transform),
           boxes_(item_, job.transform, job.mesh.tree) {
         delta_.delta = boxes_.delta();
         delta_.usable = boxes_.usable();
     }
+    // Its parts refer to each other.
+    Decider(const Decider&) = delete;
+    Decider& operator=(const Decider&) = delete;
 
     CertifiedTally run() {
         if (job_.stopAtFirst) {
@@ -44,6 +50,11 @@ template <class Kept, class Mode> class Decider {
                 return !done();
             });
         }
+        if constexpr (Mode::kCounts) {
+            if (counting_ && !done()) {
+                countParts();
+            }
+        }
         return tally_;
     }
 
@@ -51,9 +62,6 @@ template <class Kept, class Mode> class Decider {
     struct Triangle {
         std::uint32_t number = 0;
         std::array<std::size_t, 3> vertices{}; ///< in the mesh's arrays
-    };
-    struct NoCounter {
-        explicit NoCounter(const CertifiedJob& /*job*/) noexcept {}
     };
     struct Open {
         Triangle triangle;
@@ -133,22 +141,42 @@ template <class Kept, class Mode> class Decider {
 
     /// Small triangles together, others one by one.
     void countRun(std::uint32_t run) {
+        if (!counting_) {
+            counting_.emplace(job_, cells_, placed_, table_.bounds, boxes_.delta());
+        }
+        const auto proves = [this](std::size_t vertex) { return boxes_.usable() && counting_->proofs.prove(vertex); };
         const auto large = [this](std::size_t at) {
             withTriangle(at, [this](const auto&... corners) { decideTriangle(corners...); });
         };
-        const auto open = [this](std::size_t at, const FineRun::Small& small, unsigned cells) {
+        const auto open = [this](std::size_t at, const FineRun::Small& small, const RunCounter::Left& left) {
             withTriangle(at, [&](const auto&... corners) {
-                decideCellsOf(shader::certifiedTriangle(corners.point..., small.delta), small.block, cells);
+                counting_->triangle = {{corners.point...}, small.delta, triangle_.number, triangle_.vertices};
             });
+            for (unsigned cells = left.cells; cells != 0; cells &= cells - 1) {
+                const auto number = static_cast<unsigned>(std::countr_zero(cells));
+                const auto cell = small.block.at(number);
+                countLater(cell, cells_.ofCell(cell), (left.passed >> number & 1U) != 0);
+            }
         };
-        tally_.certain += counter_.count(placed_, run, large, open);
+        tally_.certain += counting_->run.count(placed_, run, proves, large, open);
     }
 
-    void decideCellsOf(const CertifiedTriangle& triangle, const CellBlock& block, unsigned cells) {
-        for (; cells != 0; cells &= cells - 1) {
-            const auto [x, y, z] = block.at(static_cast<unsigned>(std::countr_zero(cells)));
-            decideCell(triangle, x, y, z, cells_.ofCell({x, y, z}), true);
+    /// A fragment of the triangle that is counted.
+    void countLater(const std::array<std::int32_t, 3>& cell, const BrickCells& known, bool passes) {
+        if (counting_->parts.full()) {
+            countParts();
         }
+        counting_->parts.add(counting_->triangle, cell, known, passes);
+    }
+
+    void countParts() {
+        const CertifiedTally parts =
+            counting_->parts.count([this](const auto& triangle, const std::array<std::int32_t, 3>& cell) {
+                precise_.begin(triangle.number, triangle.vertices);
+                return precise_.verdict(cell);
+            });
+        tally_.certain += parts.certain;
+        tally_.undecided = tally_.undecided || parts.undecided;
     }
 
     /// Calls `decide(corner, corner, corner)` for a run's triangles, until it is done.
@@ -217,7 +245,8 @@ template <class Kept, class Mode> class Decider {
         }
         const CertifiedTriangle triangle = shader::certifiedTriangle(a.point, b.point, c.point, bounds.delta);
         if constexpr (Mode::kCounts) {
-            cubes_.begin(triangle);
+            counting_->triangle = {{a.point, b.point, c.point}, bounds.delta, triangle_.number, triangle_.vertices};
+            counting_->cubes.begin(triangle);
         }
         const bool large = bricks.volume() >= BrickRows::kLeastBricks;
         const auto decide = [&](const std::array<std::int32_t, 3>& brick) {
@@ -289,20 +318,13 @@ template <class Kept, class Mode> class Decider {
     }
 
     void decideAgain(const CellBox& cells) {
-        const auto vertex = [&](std::size_t i) {
-            const std::size_t at = triangle_.vertices[i];
-            return VoxelPoint{job_.mesh.x[at], job_.mesh.y[at], job_.mesh.z[at]};
-        };
-        if (preciseOf_ != triangle_.number) {
-            precise_ = shader::preciseTriangle(job_.transform, item_, vertex(0), vertex(1), vertex(2));
-            preciseOf_ = triangle_.number;
-        }
-        const bool isKnown = shader::preciseKnown(precise_);
-        if (isKnown && precise_.outside) {
+        precise_.begin(triangle_.number, triangle_.vertices);
+        const bool isKnown = precise_.known();
+        if (isKnown && precise_.outside()) {
             return;
         }
         const BrickBox bricks = cells.bricks();
-        const Precise triangle{*this, cells.single() ? shader::PrecisePlane{} : shader::precisePlane(item_, precise_)};
+        const Precise triangle{*this, cells.single() ? shader::PrecisePlane{} : precise_.plane()};
         visitBricks(bricks, [&](const std::array<std::int32_t, 3>& brick) {
             if (isKnown) {
                 decideBrick(triangle, cells, brick, bricks.lo != bricks.hi);
@@ -312,38 +334,13 @@ template <class Kept, class Mode> class Decider {
         });
     }
 
-    /// Precisely; with the range of the cell's own voxels; and the part of it that is certainly in the domain.
     void decideAgain(std::int32_t x, std::int32_t y, std::int32_t z, const BrickCells& known) {
-        shader::CertifiedCorners corners = cells_.corners(x, y, z, known);
-        shader::CertifiedCell cell = shader::preciseCell(item_, precise_, corners, x, y, z);
-        shader::CertifiedWitness witness{};
-        int verdict = CERTIFIED_UNDECIDED;
-        for (int attempt = 1; verdict == CERTIFIED_UNDECIDED && attempt <= 3; ++attempt) {
-            const bool within = attempt == 3;
-            if (attempt == 2) {
-                corners = cells_.cornersAround(x, y, z, known);
-                cell = shader::preciseCell(item_, precise_, corners, x, y, z);
-            } else if (within && !shader::preciseCrosses(cell)) {
-                break;
-            } else if (within) {
-                cell = shader::preciseWithin(cell);
-            }
-            verdict = settleAgain(cell, x, y, z, within, witness);
-            // What is certainly in the domain has no opaque point, but there is more.
-            verdict = within && verdict == CERTIFIED_NONE ? CERTIFIED_UNDECIDED : verdict;
-        }
-        if (verdict == CERTIFIED_CERTAIN) {
-            addCertain(corners, witness, x, y, z);
-        } else if (verdict == CERTIFIED_UNDECIDED) {
+        const auto found = precise_.decide(x, y, z, known);
+        if (found.verdict == CERTIFIED_CERTAIN) {
+            addCertain(found.corners, found.witness, x, y, z);
+        } else if (found.verdict == CERTIFIED_UNDECIDED) {
             tally_.undecided = true;
         }
-    }
-
-    int settleAgain(const shader::CertifiedCell& cell, std::int32_t x, std::int32_t y, std::int32_t z, bool within,
-                    shader::CertifiedWitness& witness) const {
-        VoxelPoint polygon[CERTIFIED_MAX_CORNERS];
-        const int count = shader::certifiedBeginAgain(precise_, cell, x, y, z, within, polygon);
-        return shader::certifiedSettle(table_, shader::certifiedFinest(item_), cell, polygon, count, witness);
     }
 
     void addCertain(const shader::CertifiedCorners& corners, const shader::CertifiedWitness& witness, std::int32_t x,
@@ -374,10 +371,9 @@ template <class Kept, class Mode> class Decider {
         if constexpr (Mode::kCounts) {
             if (const CertifiedTriangle* counted = triangle.counted()) {
                 const CellBits& allOpaque = job_.occupancy.allOpaque(job_.volume, brick);
-                tally_.certain += cubes_.count({brick, within, known.mayBeOpaque, allOpaque},
-                                               [&](std::int32_t x, std::int32_t y, std::int32_t z) {
-                                                   decideCell(*counted, x, y, z, known, true);
-                                               });
+                tally_.certain += counting_->cubes.count(
+                    {brick, within, known.mayBeOpaque, allOpaque},
+                    [&](const std::array<std::int32_t, 3>& cell, bool passes) { countLater(cell, known, passes); });
                 return;
             }
         }
@@ -415,10 +411,6 @@ template <class Kept, class Mode> class Decider {
         if (!isLikely && !hullMayMeetLinearly(look_, TriangleHull(triangle).hull(), cell, x, y, z)) {
             return;
         }
-        if (Mode::kCounts && cornerProves(triangle, cell, x, y, z)) {
-            ++tally_.certain;
-            return;
-        }
         VoxelPoint polygon[CERTIFIED_MAX_CORNERS];
         const int count = shader::certifiedBegin(table_, triangle, cell, x, y, z, polygon);
         shader::CertifiedWitness witness{};
@@ -430,22 +422,18 @@ template <class Kept, class Mode> class Decider {
         }
     }
 
-    /// Whether a corner of the triangle that is in the cell proves what certifiedSettle() would find.
-    [[nodiscard]] bool cornerProves(const CertifiedTriangle& triangle, const shader::CertifiedCell& cell,
-                                    std::int32_t x, std::int32_t y, std::int32_t z) const {
-        const VoxelPoint origin = originOf(x, y, z);
-        for (const VoxelPoint& corner : {triangle.corner0, triangle.corner1, triangle.corner2}) {
-            const VoxelPoint at = shader::voxelDifference(corner, origin);
-            const bool inCell = at.x >= cell.lo.x && at.x <= cell.hi.x && at.y >= cell.lo.y && at.y <= cell.hi.y &&
-                                at.z >= cell.lo.z && at.z <= cell.hi.z;
-            shader::CertifiedWitness witness{};
-            if (inCell && shader::certifiedVertexProves(table_, cell, corner, x, y, z, witness)) {
-                return true;
-            }
-        }
-        return false;
-    }
+    /// What is not asked for but in counting.
+    struct Counting {
+        Counting(const CertifiedJob& job, const VolumeCells<Kept>& cells, const PlacedVertices& placed,
+                 const shader::OpacityBounds& bounds, float delta)
+            : run(job), proofs(cells, placed, bounds, delta), parts(job, cells) {}
 
+        RunCounter run;
+        VertexProofs<Kept> proofs;
+        PartCounter<Kept> parts;
+        typename PartCounter<Kept>::Triangle triangle; ///< at hand
+        CellCounter cubes;                             ///< of the same
+    };
     const CertifiedJob& job_;
     VolumeCells<Kept> cells_;
     const CertifiedSink& sink_;
@@ -453,15 +441,13 @@ template <class Kept, class Mode> class Decider {
     shader::OpacityTable table_;
     OpacityLook look_;
     CertifiedTally tally_;
-    Triangle triangle_; ///< at hand
-    CellCounter cubes_; ///< of the same
-    std::conditional_t<Mode::kCounts, RunCounter, NoCounter> counter_;
-    shader::PreciseTriangle precise_{}; ///< of number `preciseOf_`
-    std::uint32_t preciseOf_ = kNoTriangle;
+    Triangle triangle_;              ///< at hand
+    PreciseFragments<Kept> precise_; ///< of a triangle that had some which were undecided
     std::vector<Open> open_;
     PlacedVertices placed_;
     BoxLook boxes_;
-    shader::CertifiedBounds delta_{}; ///< not less than of any triangle: of the mesh, or of the box asked last
+    std::optional<Counting> counting_; ///< once a run is counted
+    shader::CertifiedBounds delta_{};  ///< not less than of any triangle: of the mesh, or of the box asked last
 };
 
 } // namespace voxtact::cpu

@@ -152,19 +152,18 @@ HWY_INLINE void lookAtSome(const shader::CertifiedItem& item, const Bricks& bric
                                      cellsAlong(corners, 2, item.sizeZ)};
     const Mask some = hn::And(hn::And(along[0].some, along[1].some), along[2].some);
     const Mask few = hn::And(hn::And(along[0].few, along[1].few), along[2].few);
-    WordV inCorners = hn::Zero(words);
     for (std::size_t corner = 0; corner < 3; ++corner) {
         InCells in{hn::Set(words, 1), some};
         narrow<1>(along[0], corners.at[0][corner], in);
         narrow<2>(along[1], corners.at[1][corner], in);
         narrow<4>(along[2], corners.at[2][corner], in);
-        inCorners = hn::Or(inCorners, hn::IfThenElseZero(hn::RebindMask(words, in.inside), in.bits));
+        const WordV bits = hn::IfThenElseZero(hn::RebindMask(words, in.inside), in.bits);
+        hn::StoreU(bits, words, lanes.corner[corner].data() + i);
     }
     const WordV cells = widen<4>(along[2], widen<2>(along[1], widen<1>(along[0], hn::Set(words, 1))));
     const Mask small = hn::And(corners.certain, hn::Or(few, hn::Not(some)));
     hn::StoreU(hn::IfThenElseZero(hn::RebindMask(words, small), hn::Set(words, 1)), words, lanes.small.data() + i);
     hn::StoreU(hn::IfThenElseZero(hn::RebindMask(words, some), cells), words, lanes.cells.data() + i);
-    hn::StoreU(inCorners, words, lanes.corners.data() + i);
     hn::StoreU(corners.delta, d, lanes.delta.data() + i);
     keepPlace(along, bricks, lanes, i);
 }

@@ -17,9 +17,12 @@ class FineRun {
     static constexpr std::size_t kMost = kRunTriangles;
 
     struct Small {
-        CellBlock block;      ///< the cells of certifiedBounds(); none where it meets nothing of the volume
-        unsigned corners = 0; ///< the cells of these that one of its corners is in: it is not cut off there
-        float delta = 0;      ///< no more than CERTIFIED_OVERLAP_DELTA
+        CellBlock block; ///< the cells of certifiedBounds(); none where it meets nothing of the volume
+        /// For each of its corners the cell that it is in, or none: it is not cut off there.
+        std::array<unsigned, 3> corner{};
+        float delta = 0; ///< no more than CERTIFIED_OVERLAP_DELTA
+
+        [[nodiscard]] unsigned corners() const noexcept { return corner[0] | corner[1] | corner[2]; }
     };
     /// As certifiedOverlap() has it; neither of what it leaves open.
     struct Overlap {
@@ -44,7 +47,7 @@ class FineRun {
                  of.row[i],
                  of.column[i],
                  of.oneBrick[i] != 0},
-                of.corners[i],
+                {of.corner[0][i], of.corner[1][i], of.corner[2][i]},
                 of.delta[i]};
     }
 
@@ -68,7 +71,7 @@ class FineRun {
         Each<std::uint32_t> row{};
         Each<std::uint32_t> column{};
         Each<std::uint32_t> oneBrick{};
-        Each<std::uint32_t> corners{};
+        std::array<Each<std::uint32_t>, 3> corner{};
         Each<float> delta{};
     };
     /// A lane a cell of a triangle.

@@ -16,14 +16,22 @@ namespace voxtact::cpu {
 /// through the cell. One thread's.
 class RunCounter {
   public:
+    /// Cells of a small triangle that are still to be decided.
+    struct Left {
+        unsigned cells = 0;
+        unsigned passed = 0; ///< those of them that it passes through (FineRun::Overlap)
+    };
+
     /// The job must outlive it.
     explicit RunCounter(const CertifiedJob& job) noexcept : job_(job), blocks_(job.volume, job.occupancy) {}
 
-    /// Returns how many are certain. Calls `large(at)` for those triangles of the run that are to be counted by
-    /// themselves, `at` being their numbers in the mesh's arrays; and `open(at, small, cells)` for those that have
-    /// cells which are still to be decided: these, of the block of `small`.
-    template <class Large, class Open>
-    [[nodiscard]] std::uint64_t count(PlacedVertices& placed, std::uint32_t run, const Large& large, const Open& open) {
+    /// Returns how many are certain. Calls `proves(vertex)` for vertices in cells that are opaque in part: whether it
+    /// proves a touch; `large(at)` for those triangles of the run that are to be counted by themselves, `at` being
+    /// their numbers in the mesh's arrays; and `open(at, small, left)` for those that have cells which are still to be
+    /// decided, in the block of `small`.
+    template <class Proves, class Large, class Open>
+    [[nodiscard]] std::uint64_t count(PlacedVertices& placed, std::uint32_t run, const Proves& proves,
+                                      const Large& large, const Open& open) {
         const std::size_t first = placed.begin(run);
         const std::size_t triangles = add(placed, first);
         small_.look(job_.occupancy.item(), job_.occupancy.bricks());
@@ -31,7 +39,7 @@ class RunCounter {
         for (std::size_t i = 0; i < triangles; ++i) {
             left_[i] = {};
             if (small_.isSmall(i)) {
-                certain += countCorners(i);
+                certain += countCorners(first + i, i, proves);
             } else {
                 large(first + i);
             }
@@ -42,8 +50,8 @@ class RunCounter {
                 continue;
             }
             certain += countOverlap(i);
-            if (left_[i].mayBeOpaque != 0) {
-                open(first + i, small_[i], left_[i].mayBeOpaque);
+            if (const unsigned cells = left_[i].mayBeOpaque; cells != 0) {
+                open(first + i, small_[i], Left{cells, cells & small_.overlap(i).some});
             }
         }
         return certain;
@@ -60,13 +68,18 @@ class RunCounter {
     }
 
     /// In the cells that one of its corners is in. Asks about the others.
-    unsigned countCorners(std::size_t i) {
+    template <class Proves> unsigned countCorners(std::size_t at, std::size_t i, const Proves& proves) {
         const FineRun::Small small = small_[i];
         if (small.block.cells == 0) {
             return 0;
         }
         const BlockBits known = blocks_.at(small.block);
-        const unsigned counted = known.allOpaque & small.corners;
+        unsigned counted = known.allOpaque & small.corners();
+        const std::array<std::size_t, 3> vertices{job_.mesh.corner0[at], job_.mesh.corner1[at], job_.mesh.corner2[at]};
+        for (std::size_t corner = 0; corner < vertices.size(); ++corner) {
+            const unsigned cell = small.corner[corner] & known.mayBeOpaque & ~counted;
+            counted |= cell != 0 && proves(vertices[corner]) ? cell : 0;
+        }
         left_[i] = {known.mayBeOpaque & ~counted, known.allOpaque & ~counted};
         small_.ask(i, left_[i].mayBeOpaque);
         return bitsIn(counted);

@@ -9,6 +9,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <optional>
 
 namespace voxtact::cpu {
 
@@ -90,6 +91,8 @@ template <class Kept> class VolumeCells {
         return shader::certifiedCell(item_, corners(x, y, z, known), x, y, z, delta);
     }
 
+    /// The cell that a vertex is in, if that may have an opaque point.
+    [[nodiscard]] std::optional<Place> cellWith(const shader::VoxelPoint& vertex) const;
     /// Whether a vertex alone proves a touch; `delta` is not less than that of a triangle that has it.
     [[nodiscard]] bool vertexProves(const shader::VoxelPoint& vertex, float delta, shader::CertifiedProof* proof) const;
 
@@ -129,30 +132,34 @@ shader::CertifiedCorners VolumeCells<Kept>::cornersAround(std::int32_t x, std::i
     return around.wideLo <= around.wideHi ? around : inBrick; // where none of them is a number
 }
 
-template <class Kept>
-bool VolumeCells<Kept>::vertexProves(const shader::VoxelPoint& vertex, float delta,
-                                     shader::CertifiedProof* proof) const {
+template <class Kept> auto VolumeCells<Kept>::cellWith(const shader::VoxelPoint& vertex) const -> std::optional<Place> {
     const std::array<int, 3> size{item_.sizeX, item_.sizeY, item_.sizeZ};
     Place cell{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const float at = voxelAlong(vertex, static_cast<int>(axis));
         if (!(at >= -0.5F && at <= static_cast<float>(size[axis]) - 0.5F)) {
-            return false;
+            return std::nullopt;
         }
         cell[axis] = std::min(at < 0 ? -1 : static_cast<std::int32_t>(at), size[axis] - 1);
     }
     const Place brick = CellBox{cell, cell}.bricks().lo;
-    if (!occupancy_.mayBeOpaque(occupancy_.brickNumber(brick))) {
+    if (!occupancy_.mayBeOpaque(occupancy_.brickNumber(brick)) || !ofBrick(brick).has(cell)) {
+        return std::nullopt;
+    }
+    return cell;
+}
+
+template <class Kept>
+bool VolumeCells<Kept>::vertexProves(const shader::VoxelPoint& vertex, float delta,
+                                     shader::CertifiedProof* proof) const {
+    const std::optional<Place> place = cellWith(vertex);
+    if (!place) {
         return false;
     }
-    const BrickCells& known = ofBrick(brick);
-    if (!known.has(cell)) {
-        return false;
-    }
-    const auto [x, y, z] = cell;
+    const BrickCells& known = ofCell(*place);
+    const auto [x, y, z] = *place;
     shader::CertifiedWitness witness;
-    if (!shader::certifiedVertexProves(occupancy_.table(), this->cell(x, y, z, known, delta), vertex, x, y, z,
-                                       witness)) {
+    if (!shader::certifiedVertexProves(occupancy_.table(), cell(x, y, z, known, delta), vertex, x, y, z, witness)) {
         return false;
     }
     if (proof != nullptr) {

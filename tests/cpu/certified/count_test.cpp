@@ -48,18 +48,21 @@ TEST(CertifiedCount, IsThatOfTheFragmentsThatAreTold) {
     EXPECT_GT(counted, 1000U);
 }
 
-/// Most cells are opaque all over: a noise above the threshold with holes in it.
+/// Many cells are opaque all over, others in part: a noise above the threshold with holes in it. Now and then the mesh
+/// has several clusters.
 OracleScene drawnInside(std::mt19937_64& random) {
     Grid grid;
     for (std::uint32_t& size : grid.size) {
         size = 1 + static_cast<std::uint32_t>(below(random, 40));
     }
     OracleScene scene;
+    const double holes = chance(random, 0.5) ? 0.003 : 0.1;
     scene.volume = makeVolume<std::uint8_t>(grid, ScalarType::UInt8, [&](auto...) {
-        return chance(random, 0.003) ? 0 : 150 + static_cast<double>(below(random, 100));
+        return chance(random, holes) ? 0 : 150 + static_cast<double>(below(random, 100));
     });
     const double size = std::pow(10, uniform(random, -1, 1.5));
-    for (int triangle = 0; triangle < 20; ++triangle) {
+    const int triangles = chance(random, 0.2) ? 200 : 20;
+    for (int triangle = 0; triangle < triangles; ++triangle) {
         std::array<Vec3, 3> corners{};
         const Vec3 middle{uniform(random, -1, grid.size[0]), uniform(random, -1, grid.size[1]),
                           uniform(random, -1, grid.size[2])};
@@ -81,6 +84,46 @@ TEST(CertifiedCount, IsThatInsideOfWhatIsOpaque) {
     }
     std::cout << counted << " fragments\n";
     EXPECT_GT(counted, 100000U);
+}
+
+/// Triangles in the faces of cells, or beside them by as much as rounding may move a triangle, in a volume that is
+/// opaque here and there: the first place of a triangle may have a certain point in a cell that its precise place is
+/// not in.
+OracleScene drawnInFaces(std::mt19937_64& random) {
+    Grid grid;
+    for (std::uint32_t& size : grid.size) {
+        size = 1 + static_cast<std::uint32_t>(below(random, 8));
+    }
+    OracleScene scene;
+    scene.points = {{0, 0}, {140, 0}, {150, 1}, {160, 1}, {170, 0}, {255, 0}};
+    scene.volume = makeVolume<std::uint8_t>(grid, ScalarType::UInt8, [&](auto...) {
+        constexpr std::array<double, 3> kValues{0, 150, 255};
+        return kValues[below(random, 3)];
+    });
+    for (int triangle = 0; triangle < 30; ++triangle) {
+        const std::size_t across = below(random, 3);
+        const double beside = uniform(random, -1, 1) * std::pow(10, uniform(random, -8, -3));
+        const double face = static_cast<double>(below(random, grid.size[across] + 1)) + beside;
+        std::array<Vec3, 3> corners{};
+        for (Vec3& corner : corners) {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                corner[axis] = axis == across ? face : uniform(random, -1, grid.size[axis] + 1.0);
+            }
+        }
+        addTriangle(scene.mesh, corners[0], corners[1], corners[2]);
+    }
+    return scene;
+}
+
+TEST(CertifiedCount, IsThatInFacesOfCells) {
+    std::mt19937_64 random(testSeed());
+    std::uint64_t counted = 0;
+    for (std::size_t round = 0; round < randomCases(20000, 10) && !HasFailure(); ++round) {
+        SCOPED_TRACE(round);
+        expectTheSame(drawnInFaces(random), counted);
+    }
+    std::cout << counted << " fragments\n";
+    EXPECT_GT(counted, 10000U);
 }
 
 TEST(CertifiedCount, IsTheSameByEveryInstructionSet) {

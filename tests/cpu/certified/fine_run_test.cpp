@@ -134,17 +134,21 @@ bool expectBlock(const SmallRun& run, const FineRun& small, std::size_t i) {
     EXPECT_EQ(found.block.first, (std::array{bounds.firstX, bounds.firstY, bounds.firstZ}));
     expectPlace(found.block, bricksOf(run.item));
     unsigned cells = 0;
-    unsigned corners = 0;
+    std::array<unsigned, 3> corners{};
     for (unsigned number = 0; number < CellBlock::kMost; ++number) {
         const std::array<std::int32_t, 3> cell = found.block.at(number);
         const bool inside = cell[0] <= bounds.lastX && cell[1] <= bounds.lastY && cell[2] <= bounds.lastZ;
         cells |= (inside ? 1U : 0U) << number;
-        const bool corner = inside && (isIn(a.point, cell) || isIn(b.point, cell) || isIn(c.point, cell));
-        corners |= (corner ? 1U : 0U) << number;
-        EXPECT_TRUE(corner || (found.corners >> number & 1U) == 0);
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            const bool isHere = inside && isIn(run.triangles[i][corner].point, cell);
+            corners[corner] |= (isHere ? 1U : 0U) << number;
+            EXPECT_TRUE(isHere || (found.corner[corner] >> number & 1U) == 0);
+        }
     }
     EXPECT_EQ(found.block.cells, cells);
-    EXPECT_EQ(found.corners == 0, corners == 0);
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+        EXPECT_EQ(found.corner[corner] == 0, corners[corner] == 0);
+    }
     return true;
 }
 
@@ -215,7 +219,8 @@ std::vector<float> saidOf(const SmallRun& run) {
         if (small.isSmall(i)) {
             const FineRun::Small of = small[i];
             small.ask(i, of.block.cells);
-            for (const unsigned bits : {of.block.cells, of.corners, of.block.cells == 0 ? 0 : of.block.brick}) {
+            for (const unsigned bits :
+                 {of.block.cells, of.corner[0], of.corner[1], of.corner[2], of.block.cells == 0 ? 0 : of.block.brick}) {
                 said.push_back(static_cast<float>(bits));
             }
         }

@@ -4,16 +4,15 @@
 #include "cpu/certified/run_look.h"
 
 #include "core/method/certified_constants.h"
-#include "core/transfer/table_extremes.h"
 #include "cpu/certified/box_look.h"
 #include "cpu/scenes/engine_fixture.h"
+#include "cpu/scenes/look_scene.h"
 #include "cpu/scenes/random_scene.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <iostream>
 #include <limits>
@@ -27,52 +26,6 @@ using cpu::CellSet;
 using cpu::RunPoints;
 using shader::CertifiedVertex;
 using shader::VoxelPoint;
-
-/// A ramp, a peak of one entry, noise with holes, or a step.
-std::vector<float> drawnTable(std::mt19937_64& random) {
-    std::vector<float> table(std::size_t{1} << (4 + below(random, 5)));
-    const auto kind = below(random, 4);
-    const std::size_t at = below(random, table.size());
-    for (std::size_t i = 0; i < table.size(); ++i) {
-        const float part = static_cast<float>(i) / static_cast<float>(table.size() - 1);
-        table[i] = kind == 0 ? part : kind == 1 ? (i == at ? 1.0F : 0.0F) : kind == 2 ? drawn(random, 0, 1) : i >= at;
-    }
-    return table;
-}
-
-/// One table, and cells of values that are drawn around it.
-struct Scene {
-    explicit Scene(std::mt19937_64& random)
-        : entries(drawnTable(random)), extremes(entries),
-          item(certifiedItem(unitGrid(40), 1, 0, {0, 255}, entries.size(), uniform(random, 0.02, 0.98), 1e-3)) {}
-
-    [[nodiscard]] shader::OpacityTable table() const {
-        return {item.tableSize, item.tableLevels, item.threshold, extremes.values().data()};
-    }
-    [[nodiscard]] shader::CertifiedCorners corners(std::mt19937_64& random) const {
-        std::array<float, 8> values{};
-        const double middle = uniform(random, -10, 265);
-        const double spread = std::pow(10, uniform(random, -3, 2));
-        float lo = std::numeric_limits<float>::infinity();
-        float hi = -lo;
-        // Now and then what bends alone: a product of two axes, or of all three.
-        const unsigned product = chance(random, 0.3) ? 1 + static_cast<unsigned>(below(random, 7)) : 0;
-        for (unsigned i = 0; i < 8; ++i) {
-            float& value = values[i];
-            const double off = product != 0 ? ((std::popcount(i & product) & 1) != 0 ? -spread : spread)
-                                            : uniform(random, -spread, spread);
-            value = static_cast<float>(middle + off);
-            value = chance(random, 0.5) ? std::round(value) : value;
-            lo = std::min(lo, value);
-            hi = std::max(hi, value);
-        }
-        return {values[0], values[1], values[2], values[3], values[4], values[5], values[6], values[7], lo, hi};
-    }
-
-    std::vector<float> entries;
-    TableExtremes extremes;
-    shader::CertifiedItem item;
-};
 
 /// A patch near the cell (20, 20, 20), flat or not, of triangles of some size.
 std::vector<std::array<CertifiedVertex, 3>> drawnRun(std::mt19937_64& random) {
@@ -95,27 +48,6 @@ std::vector<std::array<CertifiedVertex, 3>> drawnRun(std::mt19937_64& random) {
     return run;
 }
 
-int verdictOf(const Scene& scene, const shader::CertifiedCorners& corners,
-              const std::array<CertifiedVertex, 3>& vertices, int x, int y, int z) {
-    const shader::CertifiedBounds bounds = shader::certifiedBounds(scene.item, vertices[0], vertices[1], vertices[2]);
-    const shader::CertifiedTriangle triangle =
-        shader::certifiedTriangle(vertices[0].point, vertices[1].point, vertices[2].point, bounds.delta);
-    const shader::CertifiedCell cell = shader::certifiedCell(scene.item, corners, x, y, z, bounds.delta);
-    if (!shader::certifiedCellMayBeOpaque(scene.table(), cell)) {
-        return CERTIFIED_NONE;
-    }
-    VoxelPoint polygon[CERTIFIED_MAX_CORNERS];
-    const int count = shader::certifiedBegin(scene.table(), triangle, cell, x, y, z, polygon);
-    shader::CertifiedWitness witness{};
-    return shader::certifiedSettle(scene.table(), scene.item.resolution, cell, polygon, count, witness);
-}
-
-cpu::OpacityLook lookAt(shader::OpacityTable table) {
-    const cpu::OpaqueHull hull = cpu::opaqueHullOf(table);
-    table.bounds = hull.bounds;
-    return {table, hull.whole};
-}
-
 TEST(RunLookTest, LeavesOutOnlyWhatIsNoneForEachTriangle) {
     std::mt19937_64 random(testSeed());
     std::size_t without = 0;   // an opaque point, by each triangle
@@ -123,7 +55,7 @@ TEST(RunLookTest, LeavesOutOnlyWhatIsNoneForEachTriangle) {
     std::size_t byItself = 0;  // triangles in cells without, and those of them that a look at themselves leaves out
     std::size_t leftAlone = 0; // see byItself
     for (std::size_t round = 0; round < randomCases(100000, 10) && !HasFailure(); ++round) {
-        const Scene scene(random);
+        const LookScene scene(random);
         const shader::CertifiedCorners corners = scene.corners(random);
         const auto run = drawnRun(random);
         RunPoints points;
@@ -132,18 +64,18 @@ TEST(RunLookTest, LeavesOutOnlyWhatIsNoneForEachTriangle) {
                 points.add(vertex, 0);
             }
         }
-        const shader::CertifiedBounds bounds = points.bounds(scene.item);
+        const shader::CertifiedBounds bounds = points.bounds(scene.item());
         ASSERT_TRUE(bounds.usable);
         const int x = 20 + static_cast<int>(below(random, 2));
-        const shader::CertifiedCell cell = shader::certifiedCell(scene.item, corners, x, 20, 20, bounds.delta);
+        const shader::CertifiedCell cell = shader::certifiedCell(scene.item(), corners, x, 20, 20, bounds.delta);
         if (!shader::certifiedCellMayBeOpaque(scene.table(), cell)) {
             continue;
         }
-        const cpu::OpacityLook look = lookAt(scene.table());
+        const cpu::OpacityLook look = scene.look();
         const bool may = cpu::hullMayMeet(look, points.hull(bounds.delta), cell, x, 20, 20);
         bool none = true;
         for (const auto& triangle : run) {
-            const bool isNone = verdictOf(scene, corners, triangle, x, 20, 20) == CERTIFIED_NONE;
+            const bool isNone = scene.verdict(corners, triangle, {x, 20, 20}) == CERTIFIED_NONE;
             const cpu::TriangleHull hull(triangle[0].point, triangle[1].point, triangle[2].point, bounds.delta);
             const bool mayAlone = cpu::hullMayMeetLinearly(look, hull.hull(), cell, x, 20, 20);
             EXPECT_TRUE(isNone || (may && mayAlone)) << "round " << round;
@@ -164,20 +96,20 @@ TEST(RunLookTest, LeavesOutOnlyWhatIsNoneForEachTriangle) {
 TEST(RunLookTest, LeavesWhatIsNotANumber) {
     std::mt19937_64 random(testSeed());
     for (int round = 0; round < 1000; ++round) {
-        const Scene scene(random);
+        const LookScene scene(random);
         shader::CertifiedCorners corners = scene.corners(random);
         (round % 2 == 0 ? corners.s101 : corners.s000) = std::numeric_limits<float>::quiet_NaN();
         const auto run = drawnRun(random);
         const cpu::TriangleHull hull(run[0][0].point, run[0][1].point, run[0][2].point, 1e-4F);
-        const shader::CertifiedCell cell = shader::certifiedCell(scene.item, corners, 20, 20, 20, 1e-4F);
-        const cpu::OpacityLook look = lookAt(scene.table());
+        const shader::CertifiedCell cell = shader::certifiedCell(scene.item(), corners, 20, 20, 20, 1e-4F);
+        const cpu::OpacityLook look = scene.look();
         EXPECT_TRUE(cpu::hullMayMeetLinearly(look, hull.hull(), cell, 20, 20, 20)) << "round " << round;
     }
 }
 
 TEST(RunLookTest, ARunsBoundsHoldThoseOfItsTriangles) {
     std::mt19937_64 random(testSeed());
-    const Scene scene(random);
+    const LookScene scene(random);
     for (int round = 0; round < 10000; ++round) {
         const auto run = drawnRun(random);
         RunPoints points;
@@ -186,9 +118,9 @@ TEST(RunLookTest, ARunsBoundsHoldThoseOfItsTriangles) {
                 points.add(vertex, 0);
             }
         }
-        const shader::CertifiedBounds all = points.bounds(scene.item);
+        const shader::CertifiedBounds all = points.bounds(scene.item());
         for (const auto& [a, b, c] : run) {
-            const shader::CertifiedBounds one = shader::certifiedBounds(scene.item, a, b, c);
+            const shader::CertifiedBounds one = shader::certifiedBounds(scene.item(), a, b, c);
             ASSERT_LE(one.delta, all.delta);
             ASSERT_TRUE(one.firstX >= all.firstX && one.firstY >= all.firstY && one.firstZ >= all.firstZ);
             ASSERT_TRUE(one.lastX <= all.lastX && one.lastY <= all.lastY && one.lastZ <= all.lastZ);
@@ -197,7 +129,7 @@ TEST(RunLookTest, ARunsBoundsHoldThoseOfItsTriangles) {
     RunPoints lost;
     lost.add({{1, 1, 1}, std::numeric_limits<float>::quiet_NaN()}, 0);
     lost.add({{1, 1, 1}, 0}, 0);
-    EXPECT_FALSE(lost.bounds(scene.item).usable);
+    EXPECT_FALSE(lost.bounds(scene.item()).usable);
 }
 
 TEST(BoxLookTest, HasTheCellsThatABoxByItselfHas) {
