@@ -78,6 +78,7 @@ Result<void> MainLoop::run(std::function<Result<Given>(Progress&)> first) {
     loader_ = std::make_unique<Loader>(*session_, [] { glfwPostEmptyEvent(); });
     state_->recent = recent_.paths();
     state_->mayWrite = desc_->mayWrite;
+    state_->notesOf = desc_->notes;
     if (first) {
         load(std::move(first), std::nullopt);
     }
@@ -122,6 +123,7 @@ Result<void> MainLoop::turn() {
     followLoading();
     play();
     VOXTACT_TRY(show());
+    tellNotes();
     takeScreenshot();
     VOXTACT_TRY(reporter_.write(state));
     takeChoice();
@@ -160,6 +162,15 @@ Result<void> MainLoop::show() {
         state.frameTimes.add(milliseconds);
     }
     return {};
+}
+
+/// Once it is shown they are of what it has become beside what was there.
+void MainLoop::tellNotes() {
+    if (std::exchange(untold_, false) && desc_->tell) {
+        for (const std::string& note : state_->notes) {
+            desc_->tell(note);
+        }
+    }
 }
 
 /// How far it is; and, until all of it is drawn, how long frames took.
@@ -319,7 +330,7 @@ Result<void> MainLoop::put(Loaded loaded) {
     loader_->run([old]() mutable { old.reset(); });
     state.question = question;
     state.loaded = loading;
-    settling_ = true;
+    settling_ = untold_ = true;
     if (!loaded.opened) { // what the command line named
         for (const MeshSource& mesh : state.document.sources.meshes) {
             recent_.add(mesh.path);

@@ -52,6 +52,7 @@ class MainLoop {
     [[nodiscard]] bool waitForFrame();
     [[nodiscard]] Result<void> turn();
     [[nodiscard]] Result<void> show();
+    void tellNotes();
     void play();
     void takeScreenshot();
     void tellOfPicture(const Result<void>& written, const std::string& path);
@@ -77,6 +78,7 @@ class MainLoop {
     Clock::time_point shown_ = Clock::now();
     Clock::time_point began_{}; ///< the loading
     bool idle_ = false;
+    bool untold_ = false;             ///< notes of what was loaded
     bool settling_ = false;           ///< what was loaded is there, and not all of it is drawn yet
     std::string opening_;             ///< the file that is being loaded
     std::unique_ptr<Given> tooLarge_; ///< what a question for a coarser copy is about

@@ -26,6 +26,7 @@ Reporter::Seen Reporter::look(const State& state) {
     seen.comparing = state.comparing;
     seen.comparison = state.comparison.serial();
     seen.compared = state.comparison.answered();
+    seen.notes = state.notes;
     seen.status = state.status;
     return seen;
 }

@@ -33,6 +33,7 @@ class Reporter {
         bool comparing = false;
         std::uint64_t comparison = 0; ///< its serial
         std::size_t compared = 0;     ///< methods that have answered
+        std::vector<std::string> notes;
         std::string status;
 
         [[nodiscard]] bool operator==(const Seen&) const = default;

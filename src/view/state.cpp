@@ -29,10 +29,12 @@ State::State(Given opened)
     : blank(false), volume(std::move(opened.volume)), meshes(std::move(opened.meshes)),
       labels(std::move(opened.labels)), values(opened.values), coarserBy(opened.coarserBy),
       deviceOption(std::move(opened.deviceOption)), deviceName(std::move(opened.deviceName)),
-      notes(std::move(opened.notes)), document(std::move(opened.document)), window(opened.values),
-      read(std::move(opened.read)) {
+      document(std::move(opened.document)), window(opened.values), read(std::move(opened.read)) {
     // The volume was checked when it was read.
     texture_from_world = textureFromWorld(volume.grid).value();
+    for (const MeshData& mesh : meshes) {
+        bounds.push_back(checkMesh(mesh.view()).value().bounds); // they were checked, too
+    }
     histogram = histogramOf(volume.view(), document.domain);
     if (document.shown) {
         show(*document.shown);
@@ -68,6 +70,11 @@ void State::update() {
         fineShare = 0;
     }
     seen_ = {document.edit, method, camera, picture.extent, answered};
+    // They take room: what is dragged is not to go from under the pointer.
+    if (!blank && noted_ != revision && (noted_ == 0 || !itemHeld)) {
+        noted_ = revision;
+        notes = notesOf ? notesOf(*this) : std::vector<std::string>();
+    }
     if (comparing && atRest() && !comparison.isOf(document.edit)) {
         comparison.begin(document.edit, methods);
     }
@@ -219,6 +226,7 @@ void State::passOn(State& next, std::optional<FileKind> opened) {
     next.recent = std::move(recent);
     next.read.insert(next.read.end(), read.begin(), read.end());
     next.mayWrite = mayWrite;
+    next.notesOf = notesOf;
 }
 
 Result<void> State::checkOutput(const std::filesystem::path& path) const {
@@ -240,7 +248,6 @@ Given State::giveBack() {
     out.values = values;
     out.coarserBy = coarserBy;
     out.deviceOption = deviceOption;
-    out.notes = std::exchange(notes, {});
     out.read = std::exchange(read, {});
     State next;
     passOn(next, std::nullopt);

@@ -34,11 +34,10 @@ struct Given {
     std::optional<Labels> labels;
     ValueRange values; ///< smallest and largest voxel
     Document document;
-    std::uint32_t coarserBy = 1;    ///< Sources::coarser of the volume that is here
-    std::vector<std::string> read;  ///< paths of poses and transfer functions, which no Sources have
-    std::string deviceOption;       ///< as --device was given; for copied commands
-    std::string deviceName;         ///< that draws
-    std::vector<std::string> notes; ///< what strikes in it, a sentence each
+    std::uint32_t coarserBy = 1;   ///< Sources::coarser of the volume that is here
+    std::vector<std::string> read; ///< paths of poses and transfer functions, which no Sources have
+    std::string deviceOption;      ///< as --device was given; for copied commands
+    std::string deviceName;        ///< that draws
 };
 
 /// What a file can be to the window.
@@ -88,6 +87,10 @@ struct KeyPress {
 /// Refuses an output that is one of these files, by whatever name.
 using MayWrite =
     std::function<Result<void>(const std::filesystem::path& output, const std::vector<std::string>& inputs)>;
+
+struct State;
+/// What strikes in what is shown, a sentence each.
+using NotesOf = std::function<std::vector<std::string>(const State&)>;
 
 /// A handle that is held, and what was there when it was taken.
 struct GizmoDrag {
@@ -165,7 +168,7 @@ struct State {
     std::uint32_t coarserBy = 1;
     std::string deviceOption;
     std::string deviceName;
-    std::vector<std::string> notes; ///< of what was opened: what strikes in it
+    std::vector<Box> bounds; ///< of `meshes`, object space
     Mat4 texture_from_world{};
     Histogram histogram;               ///< over the transfer function's domain
     std::vector<MethodChoice> methods; ///< that this machine can do
@@ -196,6 +199,8 @@ struct State {
     std::uint64_t frame = 0;
     std::string status;
     std::string error;
+    NotesOf notesOf;                  ///< empty: nothing strikes
+    std::vector<std::string> notes;   ///< of the document as it stands; while `itemHeld` as it was before
     std::optional<Question> question; ///< a dialog, until it is answered
     std::optional<std::string> field; ///< what stands in the field for a path that has the keyboard; null: none has
     std::vector<std::string> recent;  ///< files that were opened, the last first
@@ -205,6 +210,7 @@ struct State {
     // What the panels have of their own.
     std::vector<KeyPress> keys; ///< since the last frame
     Pointer pointer;            ///< what frames have not seen of it
+    bool itemHeld = false;      ///< by the mouse or the keyboard, as of the last frame
     bool entered = false;       ///< Enter was pressed since the last frame
     bool escaped = false;       ///< Escape, too
     Maximised maximised = Maximised::None;
@@ -259,6 +265,7 @@ struct State {
     Holes holes_;
     std::vector<Ball> balls_; ///< of holes_
     Seen seen_;
+    std::uint64_t noted_ = 0; ///< the revision that `notes` are of; 0: of none yet
     Clock::time_point changed_ = Clock::now();
     Clock::time_point begun_ = Clock::now();
     Clock::time_point stepped_; ///< the last step()

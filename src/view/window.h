@@ -38,9 +38,12 @@ struct WindowDesc {
     std::span<const unsigned char> font;        ///< a TrueType file; outlives the window
     std::function<Lighting(const Grid&)> light; ///< of the fine picture of a volume
     MayWrite mayWrite;                          ///< of all that is saved
-    std::filesystem::path reportState;          ///< a file to write after each answer; empty: none
-    std::optional<std::uint64_t> frames;        ///< to show before it ends by itself; nothing: until it is closed
-    std::uint32_t mostSide = 0;                 ///< voxels along a side of a volume; 0: what the device takes
+    NotesOf notes;                              ///< what strikes in what is shown; empty: nothing
+    /// Told of the notes of all that is opened, besides what the window says.
+    std::function<void(const std::string& note)> tell;
+    std::filesystem::path reportState;   ///< a file to write after each answer; empty: none
+    std::optional<std::uint64_t> frames; ///< to show before it ends by itself; nothing: until it is closed
+    std::uint32_t mostSide = 0;          ///< voxels along a side of a volume; 0: what the device takes
 
     /// A device to draw on, with the display's extensions; asked again when that was lost.
     std::function<Result<std::unique_ptr<device::Session>>()> session;

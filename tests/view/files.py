@@ -6,7 +6,7 @@
   files.py PROGRAM loading   a volume is loaded while the instrument moves, and one is cancelled
   files.py PROGRAM coarser   a volume that is too large is shown as a coarser copy
   files.py PROGRAM session   a session whose files are gone, and the files that were opened last
-  files.py PROGRAM notes     what strikes in what is opened is said in the window
+  files.py PROGRAM notes     what strikes in what is shown is said in the window
   files.py PROGRAM lost      the surface and the device are lost (a layer in the folder VOXTACT_FAULT_LAYERS says so)
   files.py PROGRAM refusals  no display, and what cannot be shown
 
@@ -120,19 +120,30 @@ def coarser(program, folder):
 
 
 def notes(program, folder):
-    """What strikes in what is opened is in the window, not on standard error alone."""
+    """What strikes in what is shown is in the window, not on standard error alone."""
     metres = pathlib.Path(folder, "tool.obj")
     metres.write_text("v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nf 1 2 3\n")
+    pathlib.Path(folder, "curve.json").write_text('{"points": [[10, 0], [100, 1]]}')
     scene = ["--volume", "builtin:head:32", "--mesh", "builtin:scalpel:300", "--preset", "ct-lung", "--device", "cpu"]
+    preset, empty, size = "--preset ct-lung is in Hounsfield units", "none of its values, 0 to 255", "--mesh-scale 1000"
+
+    def said(*parts):
+        return lambda s: len(s["notes"]) == len(parts) and all(part in note for part, note in zip(parts, s["notes"]))
+
     with Server() as server, Window(program, server, folder, scene) as window:
-        state = window.until("the first answer", lambda s: s["settled"])
-        assert [text[:16] for text in state["notes"]] == ["--preset ct-lung"], state["notes"]
+        window.until("the notes of the preset", said(preset, empty))
         window.open(metres)
-        state = window.until("the mesh", lambda s: len(s["meshes"]) == 2 and s["settled"])
-        assert len(state["notes"]) == 1 and "--mesh-scale 1000" in state["notes"][0], state["notes"]
+        window.until("that of the mesh", said(preset, empty, size))
+        # They are of the document as it stands.
+        window.open(f"{folder}/curve.json")
+        window.until("those of the preset gone with its curve", said(size))
+        window.press("Delete")
+        window.until("that of the mesh gone with it", said())
+        window.press("ctrl+z", "ctrl+z")
+        window.until("all of them again", said(preset, empty, size))
         window.press("ctrl+q")
         out, err = window.process.communicate(timeout=PATIENCE)
-        assert window.process.returncode == 0 and out == "" and err.count("note: ") == 2, err
+        assert window.process.returncode == 0 and out == "" and err.count("note: ") == 5, err
 
 
 def session(program, folder):

@@ -172,6 +172,57 @@ TEST(ViewState, TheLastMeshIsNotRemovedAndUndoBringsTheOthersBack) {
     EXPECT_EQ(state.document.edit.instrument().mesh, 1U);
 }
 
+TEST(ViewState, NotesAreOfTheDocumentAsItStands) {
+    State state = makeState();
+    state.document.edit.instruments = {{0, identity(), true}, {1, identity(), true}};
+    state.notesOf = [](const State& of) {
+        std::vector<std::string> notes;
+        if (of.document.edit.threshold > 0.5) {
+            notes.emplace_back("high");
+        }
+        for (const Instrument& instrument : of.document.edit.instruments) {
+            notes.push_back("mesh " + std::to_string(instrument.mesh));
+        }
+        return notes;
+    };
+    state.itemHeld = true; // whatever is held when it is opened
+    const auto notes = [&state] {
+        state.update();
+        return state.notes;
+    };
+    using testing::ElementsAre;
+    EXPECT_THAT(notes(), ElementsAre("mesh 0", "mesh 1"));
+    state.itemHeld = false;
+    state.command([](Edit& edit) { edit.threshold = 0.75; });
+    EXPECT_THAT(notes(), ElementsAre("high", "mesh 0", "mesh 1"));
+    state.remove(0);
+    EXPECT_THAT(notes(), ElementsAre("high", "mesh 1"));
+    state.undo();
+    state.undo();
+    EXPECT_THAT(notes(), ElementsAre("mesh 0", "mesh 1"));
+    // What is dragged is not to go from under the pointer by a line more.
+    state.itemHeld = true;
+    state.command([](Edit& edit) { edit.threshold = 0.75; });
+    EXPECT_THAT(notes(), ElementsAre("mesh 0", "mesh 1"));
+    state.itemHeld = false;
+    EXPECT_THAT(notes(), ElementsAre("high", "mesh 0", "mesh 1"));
+}
+
+TEST(ViewState, NotesAreMadeAnewForWhatIsShownInstead) {
+    State state = makeState();
+    state.notesOf = [](const State& of) {
+        return std::vector<std::string>{of.document.sources.meshes.back().path + " " +
+                                        std::to_string(of.bounds[0].hi[0] > 0)};
+    };
+    state.update();
+    EXPECT_THAT(state.notes, testing::ElementsAre("tool.stl 1"));
+    State next = makeState();
+    next.document.sources.meshes[0].path = "other.stl";
+    state.passOn(next, FileKind::Session);
+    next.update();
+    EXPECT_THAT(next.notes, testing::ElementsAre("other.stl 1"));
+}
+
 TEST(ViewState, WhatIsSavedHasCameraMethodAndCursor) {
     State state = makeState();
     state.cursor = {1, 2, 3};

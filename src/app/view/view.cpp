@@ -3,6 +3,8 @@
 #include "app/detect/auto_method.h"
 #include "app/draw/font.h"
 #include "app/options/open_session.h"
+#include "app/output/standard_streams.h"
+#include "app/view/view_notes.h"
 #include "app/view/view_options.h"
 #include "core/base/try.h"
 #include "view/window.h"
@@ -29,6 +31,8 @@ view::WindowDesc windowDesc(const ViewerOptions& options) {
     desc.font = {kFont, kFontBytes};
     desc.light = [](const Grid& grid) { return lightingNamed("soft", grid).value_or(Lighting{}); };
     desc.mayWrite = checkWindowOutput;
+    desc.notes = windowNotes;
+    desc.tell = printNote;
     desc.reportState = options.reportState;
     desc.frames = options.frames;
     desc.mostSide = options.mostSide;
@@ -51,8 +55,7 @@ void addReaders(view::WindowDesc& desc, const ViewerOptions& options, const std:
                         1,
                         std::move(files->read),
                         device,
-                        {},
-                        std::move(files->notes)};
+                        {}};
         out.document.method = out.document.method ? *out.document.method : standard(session);
         return out;
     };

@@ -2,10 +2,7 @@
 #include "app/view/view_options.h"
 
 #include "app/options/inputs.h"
-#include "app/options/opacity_notes.h"
 #include "app/options/output_paths.h"
-#include "app/output/size_note.h"
-#include "app/output/standard_streams.h"
 #include "core/base/try.h"
 #include "core/method/method_table.h"
 #include "view/model/files/session_file.h"
@@ -14,8 +11,6 @@
 #include "voxtact/looks.h"
 
 #include <CLI/CLI.hpp>
-
-#include <algorithm>
 
 namespace voxtact::app {
 
@@ -85,27 +80,6 @@ Result<view::Document> documentOf(const ViewerOptions& options, ScalarType type,
     }
     document.method = methodOf(options);
     return document;
-}
-
-void note(const std::string& text, Opened& opened) {
-    printNote(text);
-    opened.notes.push_back(text);
-}
-
-/// Most often a mesh that strikes by its size is in another unit than was said. One that is new has the chosen one's
-/// pose.
-Result<void> noteSizes(Opened& opened) {
-    const view::Edit& edit = opened.document.edit;
-    for (std::size_t mesh = 0; mesh < opened.meshes.size(); ++mesh) {
-        const Result<MeshFacts> facts = checkMesh(opened.meshes[mesh].view());
-        VOXTACT_TRY(facts);
-        const auto known = std::ranges::find(edit.instruments, mesh, &view::Instrument::mesh);
-        const Mat4& pose = (known != edit.instruments.end() ? *known : edit.instrument()).world_from_object;
-        if (const std::string said = sizeNote(facts->bounds, pose, opened.volume.grid); !said.empty()) {
-            note("the mesh " + opened.document.sources.meshes[mesh].path + " " + said, opened);
-        }
-    }
-    return {};
 }
 
 std::string nameOf(const std::string& source) {
@@ -262,7 +236,6 @@ Result<Opened> openDocument(const ViewerOptions& options, view::Progress& progre
         VOXTACT_TRY(document);
         opened.document = std::move(*document);
         VOXTACT_TRY(load(opened.document.sources, opened, progress));
-        VOXTACT_TRY(noteSizes(opened));
         return opened;
     }
     view::Sources sources;
@@ -280,17 +253,11 @@ Result<Opened> openDocument(const ViewerOptions& options, view::Progress& progre
     VOXTACT_TRY(document);
     opened.document = std::move(*document);
     opened.document.sources = sources;
-    const TransferFunctionOptions& function = options.transferFunction;
-    const bool isPresets = function.path.empty() && !function.opacity; // of the others it has the colours alone
-    if (const std::string said = presetNote(options.preset, opened.values); isPresets && !said.empty()) {
-        note(said, opened);
-    }
     opened.read.push_back(options.poses.string());
     opened.read.push_back(options.transferFunction.path.string());
     for (std::size_t mesh = 1; mesh < sources.meshes.size(); ++mesh) {
         opened.document.edit.instruments.push_back({mesh, opened.document.edit.pose(), true});
     }
-    VOXTACT_TRY(noteSizes(opened));
     return opened;
 }
 
@@ -307,7 +274,6 @@ Result<Opened> openWanted(const view::Wanted& wanted, view::Progress& progress) 
         opened.document.edit.curve = defaultRamp(opened.document.domain);
         opened.document.edit.colours = plainColours();
     }
-    VOXTACT_TRY(noteSizes(opened));
     return opened;
 }
 

@@ -41,8 +41,7 @@ struct Opened {
     std::vector<MeshData> meshes; ///< of Sources::meshes
     std::optional<view::Labels> labels;
     ValueRange values;
-    std::vector<std::string> read;  ///< paths of poses and a transfer function
-    std::vector<std::string> notes; ///< what strikes in it: on standard error, too
+    std::vector<std::string> read; ///< paths of poses and a transfer function
 };
 [[nodiscard]] Result<Opened> openDocument(const ViewerOptions& options, view::Progress& progress);
 /// The session alone, answered as the options say.

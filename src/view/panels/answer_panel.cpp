@@ -105,6 +105,14 @@ void drawClearance(const State& state) {
 
 } // namespace
 
+float notesHeight(const State& state, float width) {
+    float height = 0;
+    for (const std::string& note : state.notes) {
+        height += ImGui::CalcTextSize(note.c_str(), nullptr, false, width).y + ImGui::GetStyle().ItemSpacing.y;
+    }
+    return height;
+}
+
 void drawAnswer(State& state) {
     heading("Does it touch?");
     for (const std::string& note : state.notes) {

@@ -116,7 +116,8 @@ void drawColumn(State& state) {
     const auto rows = [&style](float number) {
         return number * (ImGui::GetFrameHeight() + style.ItemSpacing.y) + 2 * style.WindowPadding.y;
     };
-    const float answer = rows(state.labels ? 7.15F : 6.35F);
+    const float line = ImGui::GetContentRegionAvail().x - 2 * style.WindowPadding.x;
+    const float answer = rows(state.labels ? 7.15F : 6.35F) + notesHeight(state, line);
     const float curve = rows(2.8F) + ImGui::GetFontSize() * 7.9F;
     float instrument = rows((state.document.poses.empty() ? 9.45F : 10.4F) + meshRows(state));
     // Where the window is low the instrument's rows are scrolled, so that some contacts are seen without.
@@ -192,6 +193,7 @@ void drawPanels(State& state) {
         drawComparison(state);
     }
     drawHelp(state);
+    state.itemHeld = ImGui::IsAnyItemActive();
 }
 
 } // namespace voxtact::view

@@ -33,6 +33,8 @@ inline constexpr ImU32 kContactColour = IM_COL32(255, 90, 50, 255);
 
 // The parts; each inside of a window or child that the layout has begun.
 void drawAnswer(State& state);
+/// How high its notes are in a line of that width.
+[[nodiscard]] float notesHeight(const State& state, float width);
 void drawInstrument(State& state);
 /// The list of meshes, with what is said of each; nothing where there is one, which is shown.
 void drawMeshes(State& state);

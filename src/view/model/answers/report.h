@@ -36,7 +36,7 @@ struct StateReport {
     const Loading* loaded = nullptr;          ///< how that went which was loaded last; null: not known yet
     const Comparison* comparison = nullptr;   ///< of the methods; null where it is not shown
     std::optional<double> saving;             ///< how much of a picture for a file is drawn, or written
-    std::vector<std::string> notes;           ///< what strikes in what was opened last
+    std::vector<std::string> notes;           ///< what strikes in what is shown
     std::string status;                       ///< what was done last
     std::uint64_t frame = 0;                  ///< frames shown until then
     const Times* frameTimes = nullptr;        ///< from one frame to the next, of the last ones; must be given
