@@ -225,6 +225,7 @@ struct State {
     std::optional<ViewCube> cube;           ///< where it is; nothing: the picture is too small
     std::optional<std::size_t> cubeSide;    ///< of kPatientSides, under the pointer
     std::optional<std::size_t> cubePressed; ///< that the left button was pressed on
+    std::optional<std::size_t> listedMesh;  ///< the chosen one that the list of meshes was scrolled to
     bool helpOpen = false;
     bool comparing = false; ///< the counts of all methods are shown
     bool quit = false;

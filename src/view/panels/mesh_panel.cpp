@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "view/panels/panels.h"
 
+#include <imgui_internal.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 namespace voxtact::view {
 
@@ -122,10 +125,16 @@ void drawMeshes(State& state) {
         ImGui::TableSetupColumn(column, name ? ImGuiTableColumnFlags_WidthStretch : ImGuiTableColumnFlags_WidthFixed);
     }
     Wish wish;
+    // One that becomes the chosen one is brought into sight, and then the wheel may leave it.
+    const std::size_t chosen = state.document.edit.instrument().mesh;
+    const bool scrolls = std::exchange(state.listedMesh, chosen) != chosen;
     for (std::size_t number = 0; number < count; ++number) {
         ImGui::PushID(static_cast<int>(number));
         drawRow(state, number, wish);
         ImGui::PopID();
+        if (scrolls && number == state.document.edit.chosen) {
+            ImGui::ScrollToItem(ImGuiScrollFlags_KeepVisibleEdgeY);
+        }
     }
     ImGui::EndTable();
     fulfil(state, wish);

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "shown_panels.h"
+
+#include <gtest/gtest.h>
+#include <imgui_internal.h>
+
+#include <string_view>
+
+namespace voxtact::test {
+
+using namespace voxtact::view;
+
+namespace {
+
+/// The part of the list that scrolls.
+const ImGuiWindow* listOfMeshes() {
+    for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
+        if (window->WasActive && std::string_view(window->Name).find("/meshes_") != std::string_view::npos) {
+            return window;
+        }
+    }
+    return nullptr;
+}
+
+} // namespace
+
+TEST(ViewMeshList, IsScrolledToTheMeshThatBecomesTheChosenOne) {
+    State state = smallState();
+    constexpr std::size_t kMeshes = 9;
+    for (std::size_t mesh = 1; mesh < kMeshes; ++mesh) {
+        state.document.sources.meshes.push_back(state.document.sources.meshes.front());
+        state.meshes.push_back(state.meshes.front());
+        state.document.edit.instruments.push_back({mesh, identity(), true});
+    }
+    ShownPanels panels(state);
+    const auto scrolled = [&panels] {
+        panels.frame();
+        panels.frame(); // to where the frame before asked for
+        return listOfMeshes()->Scroll.y;
+    };
+    ASSERT_NE(listOfMeshes(), nullptr);
+    const float most = listOfMeshes()->ScrollMax.y;
+    ASSERT_GT(most, 0);
+    EXPECT_EQ(scrolled(), 0);
+    state.choose(1); // in sight
+    EXPECT_EQ(scrolled(), 0);
+    state.choose(kMeshes - 1);
+    EXPECT_EQ(scrolled(), most);
+    state.choose(4);
+    EXPECT_LT(scrolled(), most);
+    EXPECT_GT(scrolled(), 0);
+    // The choice stays, and so does what the wheel has scrolled.
+    const ImRect list = listOfMeshes()->InnerRect;
+    panels.turnWheel(static_cast<double>(list.GetCenter().x), static_cast<double>(list.GetCenter().y), 20);
+    EXPECT_EQ(scrolled(), 0);
+    // One that is opened is the chosen one.
+    state.document.edit.chosen = kMeshes - 1;
+    EXPECT_EQ(scrolled(), most);
+}
+
+} // namespace voxtact::test
