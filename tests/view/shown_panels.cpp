@@ -7,6 +7,8 @@
 
 #include <fstream>
 #include <iterator>
+#include <tuple>
+#include <utility>
 
 namespace voxtact::test {
 
@@ -60,6 +62,21 @@ void ShownPanels::frame() {
     drawPanels(*state_);
     state_->update();
     ImGui::Render();
+}
+
+std::string ShownPanels::shownText() {
+    std::string text;
+    ImGuiIO& io = ImGui::GetIO();
+    const auto before = std::pair(io.ClipboardUserData, io.SetClipboardTextFn);
+    io.ClipboardUserData = &text;
+    io.SetClipboardTextFn = [](void* to, const char* copied) { *static_cast<std::string*>(to) = copied; };
+    ImGui::NewFrame();
+    ImGui::LogToClipboard(); // until the end of a window
+    drawPanels(*state_);
+    state_->update();
+    ImGui::Render();
+    std::tie(io.ClipboardUserData, io.SetClipboardTextFn) = before;
+    return text;
 }
 
 void ShownPanels::moveTo(double x, double y) {

@@ -4,6 +4,7 @@
 #include "view/panels/panels.h"
 
 #include <functional>
+#include <string>
 
 /// The window's panels without a window: they are drawn into nothing, and a mouse is played to them.
 namespace voxtact::test {
@@ -20,6 +21,8 @@ class ShownPanels {
     ShownPanels& operator=(const ShownPanels&) = delete;
 
     void frame();
+    /// The lines of text that a frame shows, to the end of the first tooltip.
+    [[nodiscard]] std::string shownText();
     /// The pointer is there in a frame.
     void moveTo(double x, double y);
     /// A button goes down or up, in a frame.

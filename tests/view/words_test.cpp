@@ -47,6 +47,27 @@ TEST(ViewWords, ALineThatIsTooLongIsCut) {
     ImGui::EndFrame();
 }
 
+TEST(ViewWords, TouchedLabelsAreALineWithDotsAndWholeUnderThePointer) {
+    State state = smallState();
+    state.labels =
+        Labels{{}, {{1, "a name that is long"}, {2, "another long name"}, {3, "the last of the long names"}}};
+    state.answer = LiveAnswer{};
+    state.answer->meshes.resize(1);
+    state.answer->meshes[0].labels = {{0, 1, 300}, {0, 2, 200}, {0, 3, 100}};
+    ShownPanels panels(state);
+    const std::string shown = panels.shownText();
+    EXPECT_NE(shown.find("1 a name that is long: 300"), std::string::npos) << shown;
+    EXPECT_NE(shown.find("...\n", shown.find("2 another")), std::string::npos) << shown;
+    EXPECT_EQ(shown.find("3 the last of the long names: 100"), std::string::npos) << shown;
+    // Somewhere in the card is the line.
+    bool isWhole = false;
+    for (double y = 30; y < 250 && !isWhole; y += 5) {
+        panels.moveTo(1000, y);
+        isWhole = panels.shownText().find("3 the last of the long names: 100") != std::string::npos;
+    }
+    EXPECT_TRUE(isWhole);
+}
+
 TEST(ViewDialogs, EscapeClosesThoseThatAskForAPath) {
     State state = smallState();
     ShownPanels panels(state);

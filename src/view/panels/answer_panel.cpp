@@ -75,12 +75,8 @@ void drawLabels(const State& state) {
         line += (line.empty() ? "" : "   ") + text(touched);
         all += (all.empty() ? "" : "\n") + text(touched);
     }
-    ImGui::PushClipRect(ImGui::GetCursorScreenPos(),
-                        {ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x,
-                         ImGui::GetCursorScreenPos().y + ImGui::GetTextLineHeight()},
-                        true);
-    ImGui::TextUnformatted(line.empty() ? "no label touched" : line.c_str());
-    ImGui::PopClipRect();
+    line = line.empty() ? "no label touched" : shortened(line, ImGui::GetContentRegionAvail().x);
+    ImGui::TextUnformatted(line.c_str());
     if (!all.empty() && ImGui::IsItemHovered()) {
         ImGui::SetTooltip("%s", all.c_str());
     }
