@@ -58,6 +58,9 @@ struct Pane {
     Point2 size{0, 0};       ///< points of the window
 };
 
+/// The window is no smaller, in points: then its panels have no room.
+inline constexpr Extent kLeastWindow{640, 480};
+
 /// A picture that is to be made for a file.
 struct Shot {
     std::string path;

@@ -9,6 +9,8 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace voxtact::view {
@@ -19,6 +21,18 @@ struct WindowEnd {
     void operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
 };
 using WindowHandle = std::unique_ptr<GLFWwindow, WindowEnd>;
+
+/// As it was made larger for a display of many pixels.
+void limitSize(GLFWwindow* window) {
+    float x = 1;
+    float y = 1;
+    glfwGetWindowContentScale(window, &x, &y);
+    const auto least = [](std::uint32_t points, float scale) {
+        return static_cast<int>(std::lround(static_cast<float>(points) * std::max(scale, 1.0F)));
+    };
+    glfwSetWindowSizeLimits(window, least(kLeastWindow.width, x), least(kLeastWindow.height, y), GLFW_DONT_CARE,
+                            GLFW_DONT_CARE);
+}
 
 /// What goes on after a device was lost.
 Question lostQuestion(const std::string& device, const Error& error) {
@@ -140,6 +154,7 @@ Result<void> runWindow(const Display&, const WindowDesc& desc) {
     if (window == nullptr) {
         return Error{ErrorCode::Unsupported, 0, "the window cannot be opened: " + windowSystemReason()};
     }
+    limitSize(window.get());
     State state;
     state.wanted = desc.opened;
     glfwSetWindowUserPointer(window.get(), &state);

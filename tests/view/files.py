@@ -306,6 +306,7 @@ def refusals(program, folder):
                 ["--session", str(session), "--report-state", str(output)], without)
         assert pathlib.Path(output).read_bytes() == before, output
     refused(program, 2, "'-' is not a file", [*SCENE, "--report-state", "-"], without)
+    refused(program, 2, "a window has 640x480 to", [*SCENE, "--size", "640x470"], without)
     refused(program, 2, "--count query", ["--count", "query", "--projection", "conservative"], without)
     refused(program, 1, "nowhere.nii", ["--labels", "nowhere.nii"], without)
     refused(program, 2, "--labels is not given", ["--label-names", "nowhere.txt"], without)

@@ -9,9 +9,11 @@
   keys.py PROGRAM labels    what is touched by its labels, on the host and on the device
   keys.py PROGRAM drill     holes at the tip, on the host and on the device, and undo
   keys.py PROGRAM screenshot   pictures of any size
+  keys.py PROGRAM least     the window's least size, on displays of one and two pixels a point
 
 Exit status: 0 passed, 1 failed.
 """
+import ctypes
 import pathlib
 import subprocess
 import sys
@@ -237,7 +239,40 @@ def screenshot(program, folder):
         window.end()
 
 
+class SizeHints(ctypes.Structure):
+    """XSizeHints of Xutil.h, and room for what comes behind these."""
+    _fields_ = [("flags", ctypes.c_long), *((name, ctypes.c_int) for name in ("x", "y", "width", "height", "least_width",
+                                                                              "least_height")),
+                ("more", ctypes.c_int * 20)]
+
+
+def least(program, folder):
+    x11 = ctypes.CDLL("libX11.so.6")
+    x11.XOpenDisplay.restype = ctypes.c_void_p
+    x11.XDefaultRootWindow.restype = ctypes.c_ulong
+    for dots, size in ((96, (640, 480)), (192, (1280, 960))):
+        with Server() as server:
+            display = ctypes.c_void_p(x11.XOpenDisplay(server.environment["DISPLAY"].encode()))
+            resources = f"Xft.dpi:\t{dots}\n".encode()
+            manager, string, replace = 23, 31, 0  # RESOURCE_MANAGER, STRING of Xatom.h
+            x11.XChangeProperty(display, ctypes.c_ulong(x11.XDefaultRootWindow(display)), ctypes.c_ulong(manager),
+                                ctypes.c_ulong(string), 8, replace, resources, len(resources))
+            x11.XSync(display, 0)
+            with Window(program, server, folder, [*SCENE, "--device", "cpu"]) as window:
+                window.until("the first answer", lambda s: s["settled"])
+                window.press("Next")
+                hints, supplied = SizeHints(), ctypes.c_long()
+                assert x11.XGetWMNormalHints(display, ctypes.c_ulong(int(window.id)), ctypes.byref(hints),
+                                             ctypes.byref(supplied))
+                least_flag = 16  # PMinSize of Xutil.h
+                assert hints.flags & least_flag and (hints.least_width, hints.least_height) == size, \
+                    (hints.flags, hints.least_width, hints.least_height)
+                window.press("ctrl+q")
+                window.end()
+            x11.XCloseDisplay(display)
+
+
 if __name__ == "__main__":
     CHECKS = {"keys": keys, "handles": handles, "methods": methods, "labels": labels, "drill": drill,
-              "screenshot": screenshot}
+              "screenshot": screenshot, "least": least}
     sys.exit(main(sys.argv[1:], CHECKS, __doc__))

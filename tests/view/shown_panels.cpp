@@ -37,11 +37,11 @@ const std::vector<unsigned char>& fontBytes() {
 
 } // namespace
 
-ShownPanels::ShownPanels(State& state, float scale) : state_(&state) {
+ShownPanels::ShownPanels(State& state, float scale, const Extent& points) : state_(&state) {
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr;
-    io.DisplaySize = {1280 * scale, 800 * scale};
+    io.DisplaySize = {static_cast<float>(points.width) * scale, static_cast<float>(points.height) * scale};
     io.DeltaTime = 0.02F; // two clicks are soon after another
     io.MousePos = {1, 1};
     applyTheme(scale, fontBytes());
@@ -49,8 +49,11 @@ ShownPanels::ShownPanels(State& state, float scale) : state_(&state) {
     int width = 0;
     int height = 0;
     io.Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
-    frame();
-    frame(); // sizes of some parts are known from the frame before
+    // Heights of parts are known from the frame before, and what has room beside their scroll bars from those.
+    constexpr int kSettled = 5;
+    for (int i = 0; i < kSettled; ++i) {
+        frame();
+    }
 }
 
 ShownPanels::~ShownPanels() {

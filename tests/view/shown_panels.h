@@ -12,10 +12,10 @@ namespace voxtact::test {
 /// A small scene: the builtin head and scalpel, a curve of two points.
 [[nodiscard]] view::State smallState();
 
-/// Panels of a display of 1280 x 800 points of the size `scale`. One at a time.
+/// Panels of a window of so many points of the size `scale`. One at a time.
 class ShownPanels {
   public:
-    explicit ShownPanels(view::State& state, float scale = 1);
+    explicit ShownPanels(view::State& state, float scale = 1, const view::Extent& points = {1280, 800});
     ~ShownPanels();
     ShownPanels(const ShownPanels&) = delete;
     ShownPanels& operator=(const ShownPanels&) = delete;

@@ -82,6 +82,19 @@ Result<view::Document> documentOf(const ViewerOptions& options, ScalarType type,
     return document;
 }
 
+Result<void> checkSize(const VkExtent2D& size) {
+    constexpr std::uint32_t kMost = 16384;
+    const auto text = [](std::uint32_t width, std::uint32_t height) {
+        return std::to_string(width) + "x" + std::to_string(height);
+    };
+    const view::Extent& least = view::kLeastWindow;
+    if (size.width < least.width || size.height < least.height || size.width > kMost || size.height > kMost) {
+        return badArgument("--size " + text(size.width, size.height) + ": a window has " +
+                           text(least.width, least.height) + " to " + text(kMost, kMost) + " points");
+    }
+    return {};
+}
+
 std::string nameOf(const std::string& source) {
     const std::string name = std::filesystem::path(source).filename().string();
     return name.empty() ? source : name;
@@ -185,14 +198,7 @@ Result<void> checkViewerOptions(const ViewerOptions& options) {
                            ": the projection conservative is answered by compute and cpu only; choose another "
                            "--projection");
     }
-    constexpr std::uint32_t kLeast = 320;
-    constexpr std::uint32_t kMost = 16384;
-    for (const std::uint32_t side : {options.size.width, options.size.height}) {
-        if (side < kLeast || side > kMost) {
-            return badArgument("--size " + std::to_string(options.size.width) + "x" +
-                               std::to_string(options.size.height) + ": a window has 320 to 16384 points a side");
-        }
-    }
+    VOXTACT_TRY(checkSize(options.size));
     if (options.labels.empty() && !options.labelNames.empty()) {
         return badArgument("--label-names: it names the labels of a label map, and --labels is not given");
     }

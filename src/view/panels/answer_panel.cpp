@@ -4,7 +4,9 @@
 #include "view/model/answers/command_text.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <vector>
 
 namespace voxtact::view {
@@ -30,9 +32,12 @@ void drawMethods(State& state) {
 
 void drawTimes(const State& state) {
     const LiveAnswer& answer = *state.answer;
-    ImGui::TextColored(quietColour(), "%.2f ms, by %s", answer.milliseconds, state.answeredBy.c_str());
-    ImGui::TextColored(quietColour(), "last %d: p50 %.2f ms, p99 %.2f ms", static_cast<int>(state.times.count()),
-                       state.times.percentile(0.5), state.times.percentile(0.99));
+    std::array<char, 96> text{};
+    std::snprintf(text.data(), text.size(), "%.2f ms, by ", answer.milliseconds);
+    shortLine(quietColour(), text.data() + state.answeredBy);
+    std::snprintf(text.data(), text.size(), "last %d: p50 %.2f ms, p99 %.2f ms", static_cast<int>(state.times.count()),
+                  state.times.percentile(0.5), state.times.percentile(0.99));
+    shortLine(quietColour(), text.data());
 }
 
 /// The verdicts of the last seconds by their colours, and how long each took: a bar, by powers of ten from 0.01 ms on.
@@ -91,23 +96,16 @@ void drawClearance(const State& state) {
     ImVec4 colour = ImGui::GetStyle().Colors[ImGuiCol_Text];
     colour.w = state.clearance->revision == state.revision ? 1.0F : 0.5F;
     const std::string text = clearanceText(*clearance);
-    ImGui::TextColored(colour, "%s", text.c_str());
+    ImGui::TextColored(colour, "%s", shortened(text, ImGui::GetContentRegionAvail().x).c_str());
     if (ImGui::IsItemHovered()) {
-        ImGui::SetTooltip("The clearance, certified: between these bounds lies the least distance between\n"
+        ImGui::SetTooltip("%s\n"
+                          "The clearance, certified: between these bounds lies the least distance between\n"
                           "the mesh and what is opaque. By the host, in %.1f ms for all meshes.",
-                          state.clearance->milliseconds);
+                          text.c_str(), state.clearance->milliseconds);
     }
 }
 
 } // namespace
-
-float notesHeight(const State& state, float width) {
-    float height = 0;
-    for (const std::string& note : state.notes) {
-        height += ImGui::CalcTextSize(note.c_str(), nullptr, false, width).y + ImGui::GetStyle().ItemSpacing.y;
-    }
-    return height;
-}
 
 void drawAnswer(State& state) {
     heading("Does it touch?");
@@ -131,8 +129,8 @@ void drawAnswer(State& state) {
     ImGui::SetWindowFontScale(1);
     ImGui::SameLine();
     ImGui::BeginGroup();
-    ImGui::TextUnformatted(countText(answer.pair).c_str());
-    ImGui::TextColored(quietColour(), "%s", trianglesText(answer).c_str());
+    shortLine(ImGui::GetStyle().Colors[ImGuiCol_Text], countText(answer.pair));
+    shortLine(quietColour(), trianglesText(answer));
     ImGui::EndGroup();
     drawClearance(state);
     drawLabels(state);
@@ -155,12 +153,15 @@ void copyCommand(State& state) {
 void drawContacts(State& state) {
     const MeshAnswer* answer = state.chosenAnswer();
     const std::size_t shown = answer == nullptr ? 0 : answer->contacts.size();
-    const unsigned long long found = answer == nullptr ? 0 : answer->contactsFound;
+    const std::uint64_t found = answer == nullptr ? 0 : answer->contactsFound;
     heading("Contacts");
+    const float show = ImGui::GetContentRegionMax().x - widthOfCheckbox("show");
     ImGui::SameLine();
-    ImGui::TextColored(quietColour(), shown < found ? "%llu, the deepest %d listed" : "%llu", found,
-                       static_cast<int>(shown));
-    ImGui::SameLine(ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize("show___").x);
+    const std::string all = std::to_string(found);
+    const std::string listed = shown < found ? ", the deepest " + std::to_string(shown) + " listed" : "";
+    const float room = show - ImGui::GetCursorPosX() - ImGui::GetStyle().ItemSpacing.x;
+    ImGui::TextColored(quietColour(), "%s", fitting({all + listed, all}, room).c_str());
+    ImGui::SameLine(show);
     ImGui::Checkbox("show", &state.showContacts);
     const ImGuiTableFlags flags = ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchSame;
     if (!ImGui::BeginTable("contacts", 5, flags)) {

@@ -2,6 +2,8 @@
 #include "core/method/method_table.h"
 #include "view/panels/panels.h"
 
+#include <algorithm>
+
 namespace voxtact::view {
 
 namespace {
@@ -54,7 +56,9 @@ void drawComparison(State& state) {
     }
     const float em = ImGui::GetFontSize();
     ImGui::SetNextWindowPos({em, 3 * em}, ImGuiCond_Appearing);
-    ImGui::SetNextWindowSize({em * 44, em * 22}, ImGuiCond_Appearing);
+    const ImVec2 all = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowSize({std::min(em * 44, all.x - 2 * em), std::min(em * 22, all.y - 4 * em)},
+                             ImGuiCond_Appearing);
     if (ImGui::Begin("Counts of all methods", &state.comparing, ImGuiWindowFlags_NoCollapse)) {
         const bool current = state.comparison.isOf(state.document.edit);
         ImGui::TextColored(quietColour(), "%s",

@@ -181,6 +181,7 @@ void drawChosen(State& state) {
     Curve& curve = state.document.edit.curve;
     if (!state.curvePoint || *state.curvePoint >= curve.size()) {
         state.curvePoint.reset();
+        ImGui::AlignTextToFramePadding(); // as high as the fields
         ImGui::TextColored(quietColour(), "click the curve for a point");
         return;
     }
@@ -188,21 +189,25 @@ void drawChosen(State& state) {
     const float width = ImGui::GetFontSize() * 4.5F;
     ImGui::SetNextItemWidth(width);
     bool changed = ImGui::InputDouble("value", &typed.value, 0, 0, "%.6g", ImGuiInputTextFlags_EnterReturnsTrue);
-    ImGui::SameLine();
+    sameLine(width + ImGui::GetStyle().ItemInnerSpacing.x + ImGui::CalcTextSize("opacity").x);
     ImGui::SetNextItemWidth(width);
     changed |= ImGui::InputDouble("opacity", &typed.opacity, 0, 0, "%.3g", ImGuiInputTextFlags_EnterReturnsTrue);
     if (changed && std::isfinite(typed.value) && std::isfinite(typed.opacity)) {
         state.command([&](Edit& edit) { movePoint(edit.curve, *state.curvePoint, typed, state.document.domain); });
     }
-    ImGui::SameLine();
+    sameLine(widthOfButton("remove"));
     if (ImGui::Button("remove")) {
         state.command([&](Edit& edit) { removePoint(edit.curve, *state.curvePoint); });
         state.curvePoint.reset();
     }
 }
 
+float widthOfPresets() {
+    return ImGui::GetFontSize() * 6;
+}
+
 void drawPresets(State& state) {
-    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 6);
+    ImGui::SetNextItemWidth(widthOfPresets());
     if (!ImGui::BeginCombo("##presets", "presets")) {
         return;
     }
@@ -221,6 +226,26 @@ void drawPresets(State& state) {
         }
     }
     ImGui::EndCombo();
+}
+
+/// With what the chart shows at its right end.
+void drawHeading(State& state) {
+    const float gap = ImGui::GetStyle().ItemSpacing.x;
+    const bool zoomed = state.zoomedRange.has_value();
+    const float width =
+        (zoomed ? widthOfButton("all values") + gap : 0) + widthOfPresets() + gap + widthOfCheckbox("log");
+    const float left = ImGui::GetContentRegionMax().x - width;
+    heading(fitting({"Transfer function", "Function", ""}, left - ImGui::GetCursorPosX() - gap).c_str());
+    ImGui::SameLine(left);
+    if (zoomed) {
+        if (ImGui::Button("all values")) {
+            state.zoomedRange.reset();
+        }
+        ImGui::SameLine();
+    }
+    drawPresets(state);
+    ImGui::SameLine();
+    ImGui::Checkbox("log", &state.logHistogram);
 }
 
 void drawChart(State& state) {
@@ -251,17 +276,7 @@ void drawChart(State& state) {
 } // namespace
 
 void drawCurve(State& state) {
-    heading("Transfer function");
-    if (state.zoomedRange) {
-        ImGui::SameLine(ImGui::GetContentRegionAvail().x - ImGui::GetFontSize() * 14.6F);
-        if (ImGui::Button("all values")) {
-            state.zoomedRange.reset();
-        }
-    }
-    ImGui::SameLine(ImGui::GetContentRegionAvail().x - ImGui::GetFontSize() * 9.5F);
-    drawPresets(state);
-    ImGui::SameLine();
-    ImGui::Checkbox("log", &state.logHistogram);
+    drawHeading(state);
     drawChart(state);
     drawChosen(state);
     const double least = 0;

@@ -132,7 +132,7 @@ void drawGizmoChoice(State& state) {
     }
     constexpr std::array<const char*, 3> kNames{"world", "view", "own"};
     for (std::size_t i = 0; i < kNames.size(); ++i) {
-        ImGui::SameLine();
+        sameLine(widthOfCheckbox(kNames[i]));
         const auto axes = static_cast<GizmoAxes>(i);
         if (ImGui::RadioButton(kNames[i], state.gizmoAxes == axes)) {
             state.gizmoAxes = axes;

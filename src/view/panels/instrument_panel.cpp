@@ -91,10 +91,10 @@ void drawNudges(State& state) {
 }
 
 void drawSteps(State& state) {
-    const float width = ImGui::GetFontSize() * 5;
+    const float width = ImGui::GetFontSize() * 4;
     ImGui::SetNextItemWidth(width);
     ImGui::InputDouble("mm", &state.stepMillimetres, 0, 0, "%.3g");
-    ImGui::SameLine();
+    sameLine(width + ImGui::GetStyle().ItemInnerSpacing.x + ImGui::CalcTextSize("degrees a step").x);
     ImGui::SetNextItemWidth(width);
     ImGui::InputDouble("degrees a step", &state.stepDegrees, 0, 0, "%.3g");
     constexpr double kMost = 1000;
@@ -110,11 +110,11 @@ void drawDrill(State& state) {
     if (ImGui::IsItemHovered()) {
         ImGui::SetTooltip("radius of the holes; their voxels get the image's smallest value");
     }
-    ImGui::SameLine();
+    sameLine(widthOfButton("drill at the tip"));
     if (ImGui::Button("drill at the tip")) {
         state.drill(originOf(state.document.edit.pose()));
     }
-    ImGui::SameLine();
+    sameLine(widthOfButton("at the cursor"));
     if (ImGui::Button("at the cursor")) {
         state.drill(state.cursor);
     }
@@ -153,7 +153,7 @@ void drawInstrument(State& state) {
     if (ImGui::Button("tip to the cursor")) {
         state.command([&](Edit& edit) { edit.pose() = placedAt(edit.pose(), state.cursor); });
     }
-    ImGui::SameLine();
+    sameLine(widthOfButton("add pose to list"));
     if (ImGui::Button("add pose to list")) {
         state.document.poses.push_back(state.document.edit.pose());
         state.document.pose = state.document.poses.size() - 1;

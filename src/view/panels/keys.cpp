@@ -207,7 +207,9 @@ void row(const char* key, const char* does) {
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(key);
     ImGui::TableNextColumn();
-    ImGui::TextColored(quietColour(), "%s", does);
+    ImGui::PushStyleColor(ImGuiCol_Text, quietColour());
+    ImGui::TextWrapped("%s", does);
+    ImGui::PopStyleColor();
 }
 
 } // namespace
@@ -247,9 +249,12 @@ void drawHelp(State& state) {
     }
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Appearing, {0.5F, 0.5F});
-    ImGui::SetNextWindowSize({ImGui::GetFontSize() * 46, size.y * 0.86F}, ImGuiCond_Appearing);
+    const float width = std::min(ImGui::GetFontSize() * 46, size.x - 2 * ImGui::GetFontSize());
+    ImGui::SetNextWindowSize({width, size.y * 0.86F}, ImGuiCond_Appearing);
     if (ImGui::Begin("Keys and mouse", &state.helpOpen, ImGuiWindowFlags_NoCollapse) &&
-        ImGui::BeginTable("keys", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) {
+        ImGui::BeginTable("keys", 2, ImGuiTableFlags_RowBg)) {
+        ImGui::TableSetupColumn("key", ImGuiTableColumnFlags_WidthFixed);
+        ImGui::TableSetupColumn("does", ImGuiTableColumnFlags_WidthStretch);
         for (const Nudge& one : kNudges) {
             row(one.name, one.does);
         }

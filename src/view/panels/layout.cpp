@@ -66,9 +66,14 @@ void drawMenu(State& state) {
     for (const Instrument& instrument : state.document.edit.instruments) {
         names += state.blank ? "" : "   " + sources.meshes[instrument.mesh].path;
     }
-    const float width = ImGui::CalcTextSize(names.c_str()).x + scaled(14);
-    ImGui::SameLine(std::max(ImGui::GetWindowWidth() - width, ImGui::GetCursorPosX() + 20));
-    ImGui::TextColored(quietColour(), "%s", names.c_str());
+    const float edge = scaled(14);
+    const float room = ImGui::GetWindowWidth() - ImGui::GetCursorPosX() - 2 * edge;
+    const std::string shown = shortened(names, room);
+    ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(shown.c_str()).x - edge);
+    ImGui::TextColored(quietColour(), "%s", shown.c_str());
+    if (shown != names && ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("%s", names.c_str());
+    }
     ImGui::EndMenuBar();
 }
 
@@ -103,42 +108,62 @@ void drawPanes(State& state, const ImVec2& size) {
     }
 }
 
-/// A child as high as what is in it, which is drawn first.
-template <class Draw> void card(const char* name, float height, Draw&& draw) {
-    ImGui::BeginChild(name, {0, height}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+/// A child with an edge, which is scrolled or grows with what is in it. `whole`: how high it is with all of that, known
+/// once it was in sight.
+template <class Draw> void card(const char* name, float height, float& whole, Draw&& draw) {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    // One that grows has its height a frame later: until then it is cut, and nothing in it becomes narrower.
+    const ImGuiWindowFlags fixed = ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse;
+    const bool inSight =
+        ImGui::BeginChild(name, {0, height}, false,
+                          ImGuiWindowFlags_AlwaysUseWindowPadding | (height < whole ? ImGuiWindowFlags_None : fixed));
     draw();
+    if (inSight) {
+        whole = std::ceil(ImGui::GetCursorPosY() - style.ItemSpacing.y + style.WindowPadding.y);
+    }
     ImGui::EndChild();
 }
 
+/// How high the cards are with all that is in them, as of the frame before; before the first about as high.
+struct Heights {
+    float answer = ImGui::GetFontSize() * 12;
+    float curve = ImGui::GetFontSize() * 14;
+    float instrument = ImGui::GetFontSize() * 18;
+};
+
+Heights& heights() {
+    static Heights all;
+    return all;
+}
+
 void drawColumn(State& state) {
+    Heights& whole = heights();
     const ImGuiStyle& style = ImGui::GetStyle();
-    // Rows of a line with a frame round it, and the card's own edges.
-    const auto rows = [&style](float number) {
-        return number * (ImGui::GetFrameHeight() + style.ItemSpacing.y) + 2 * style.WindowPadding.y;
-    };
-    const float line = ImGui::GetContentRegionAvail().x - 2 * style.WindowPadding.x;
-    const float answer = rows(state.labels ? 7.15F : 6.35F) + notesHeight(state, line);
-    const float curve = rows(2.8F) + ImGui::GetFontSize() * 7.9F;
-    float instrument = rows((state.document.poses.empty() ? 9.45F : 10.4F) + meshRows(state));
-    // Where the window is low the instrument's rows are scrolled, so that some contacts are seen without.
     constexpr float kLeastRows = 4.4F;  // of the instrument
     constexpr float kLeastContacts = 6; // lines, with heading and names
+    const float row = ImGui::GetFrameHeight() + style.ItemSpacing.y;
+    const float least = std::min(kLeastRows * row + 2 * style.WindowPadding.y, whole.instrument);
     const float contacts = kLeastContacts * ImGui::GetTextLineHeightWithSpacing() + 2 * style.WindowPadding.y;
-    const float spare =
-        ImGui::GetContentRegionAvail().y - answer - curve - instrument - contacts - 3 * style.ItemSpacing.y;
-    instrument = std::max(instrument + std::min(spare, 0.0F), std::min(instrument, rows(kLeastRows)));
-    card("answer", answer, [&] { drawAnswer(state); });
-    card("curve", curve, [&] { drawCurve(state); });
-    card("instrument", instrument, [&] { drawInstrument(state); });
-    card("contacts", 0, [&] { drawContacts(state); });
+    const float rest =
+        ImGui::GetContentRegionAvail().y - whole.answer - whole.curve - contacts - 3 * style.ItemSpacing.y;
+    // Where the window is low the instrument's rows are scrolled, so that some contacts are seen without; where it is
+    // lower still, the column is scrolled, and all cards are whole.
+    const bool isLow = rest < least;
+    const float instrument = isLow ? whole.instrument : std::min(rest, whole.instrument);
+    card("answer", whole.answer, whole.answer, [&] { drawAnswer(state); });
+    card("curve", whole.curve, whole.curve, [&] { drawCurve(state); });
+    card("instrument", instrument, whole.instrument, [&] { drawInstrument(state); });
+    float last = 0; // it has what is left
+    card("contacts", isLow ? contacts : 0, last, [&] { drawContacts(state); });
 }
 
 void drawStatus(const State& state) {
-    char text[160];
+    char frames[64];
     const char* fine = state.fineShare >= 1 ? "fine" : "coarse";
-    std::snprintf(text, sizeof text, "%s   %.0f ms a frame   %s", fine, state.frameTimes.percentile(0.5),
-                  state.deviceName.c_str());
-    const float right = ImGui::GetWindowWidth() - ImGui::CalcTextSize(text).x - scaled(12);
+    std::snprintf(frames, sizeof frames, "%s   %.0f ms a frame", fine, state.frameTimes.percentile(0.5));
+    const std::string device = frames + ("   " + state.deviceName);
+    const std::string text = shortened(device, ImGui::GetWindowWidth() / 2);
+    const float right = ImGui::GetWindowWidth() - ImGui::CalcTextSize(text.c_str()).x - scaled(12);
     const std::string status = state.status.empty() ? "F1: keys" : state.status;
     const std::string said = shortened(status, right - ImGui::GetCursorPosX() - 2 * ImGui::GetFontSize());
     ImGui::TextColored(quietColour(), "%s", said.c_str());
@@ -146,7 +171,10 @@ void drawStatus(const State& state) {
         ImGui::SetTooltip("%s", status.c_str());
     }
     ImGui::SameLine(right);
-    ImGui::TextColored(quietColour(), "%s", text);
+    ImGui::TextColored(quietColour(), "%s", text.c_str());
+    if (text != device && ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("%s", device.c_str());
+    }
 }
 
 /// All below the menu.

@@ -3,6 +3,7 @@
 
 #include <imgui_stdlib.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace voxtact::view {
@@ -19,7 +20,8 @@ void drawLoading(State& state) {
     const ImVec2 at{state.blank ? size.x / 2 : static_cast<float>(middle),
                     state.blank ? size.y / 2 : size.y - 3 * line};
     ImGui::SetNextWindowPos(at, ImGuiCond_Always, {0.5F, state.blank ? 0.5F : 1.0F});
-    ImGui::SetNextWindowSize({line * 26, 0});
+    const auto room = static_cast<float>(state.blank ? static_cast<double>(size.x) : state.picture.size[0]);
+    ImGui::SetNextWindowSize({std::min(line * 26, room), 0});
     ImGui::Begin("loading", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);

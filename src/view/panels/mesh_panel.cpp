@@ -12,7 +12,7 @@ namespace voxtact::view {
 
 namespace {
 
-constexpr std::size_t kMostRows = 4; // more are scrolled
+constexpr int kMostRows = 4; // more are scrolled
 
 std::string nameOf(const MeshSource& source) {
     const std::string name = std::filesystem::path(source.path).filename().string();
@@ -103,21 +103,15 @@ void fulfil(State& state, const Wish& wish) {
 
 } // namespace
 
-float meshRows(const State& state) {
-    const std::vector<Instrument>& instruments = state.document.edit.instruments;
-    const bool listed = instruments.size() > 1 || !instruments.front().shown;
-    return listed ? static_cast<float>(std::min(instruments.size(), kMostRows)) : 0;
-}
-
 void drawMeshes(State& state) {
     const std::size_t count = state.document.edit.instruments.size();
-    if (meshRows(state) == 0) {
+    if (count == 1 && state.document.edit.instrument().shown) {
         return;
     }
     const float row = ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.y;
     const ImGuiTableFlags flags = ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg |
                                   (count > kMostRows ? ImGuiTableFlags_ScrollY : ImGuiTableFlags_None);
-    if (!ImGui::BeginTable("meshes", 6, flags, {0, count > kMostRows ? row * meshRows(state) : 0})) {
+    if (!ImGui::BeginTable("meshes", 6, flags, {0, count > kMostRows ? row * kMostRows : 0})) {
         return;
     }
     for (const char* column : {"shown", "name", "verdict", "count", "clearance", "remove"}) {

@@ -5,7 +5,9 @@
 
 #include <imgui.h>
 
+#include <initializer_list>
 #include <span>
+#include <string>
 
 /// The window's panels: they read and write a State, and know no Vulkan.
 namespace voxtact::view {
@@ -33,13 +35,9 @@ inline constexpr ImU32 kContactColour = IM_COL32(255, 90, 50, 255);
 
 // The parts; each inside of a window or child that the layout has begun.
 void drawAnswer(State& state);
-/// How high its notes are in a line of that width.
-[[nodiscard]] float notesHeight(const State& state, float width);
 void drawInstrument(State& state);
 /// The list of meshes, with what is said of each; nothing where there is one, which is shown.
 void drawMeshes(State& state);
-/// How high it is, in rows of the instrument's.
-[[nodiscard]] float meshRows(const State& state);
 void drawCurve(State& state);
 void drawPicture(State& state);
 /// What lies over the picture, but for the handles.
@@ -83,6 +81,15 @@ void heading(const char* text);
 void addRimmed(ImDrawList& list, const ImVec2& at, ImU32 colour, const char* text);
 /// As much of a line as a width has room for, with dots for what is missing.
 [[nodiscard]] std::string shortened(const std::string& text, float width);
+/// The first of some texts that a width has room for; where there is none, the last.
+[[nodiscard]] std::string fitting(std::initializer_list<std::string> texts, float width);
+/// A line that is shortened where it is too long: all of it is under the mouse then.
+void shortLine(const ImVec4& colour, const std::string& text);
+/// How wide a button is, or a box to check, with its text.
+[[nodiscard]] float widthOfButton(const char* text);
+[[nodiscard]] float widthOfCheckbox(const char* text);
+/// On with the line where it has room for an item of that width.
+void sameLine(float width);
 /// Clipboard and status line.
 void copyCommand(State& state);
 /// As copyAsCommand() for what is shown.

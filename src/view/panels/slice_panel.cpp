@@ -80,16 +80,30 @@ void drawClosest(const State& state, std::size_t slice, const SlicePlace& place,
     list.AddCircleFilled(to, scaled(2.5F), colour);
 }
 
-void drawLetters(const SliceKind& kind, const Rect& rect, ImDrawList& list) {
+/// Where the slice is, in words that have room. Returns how far they reach, to the right and down.
+ImVec2 drawCaption(const State& state, const SliceKind& kind, const Rect& rect, ImDrawList& list) {
+    const std::string place = mmText(state.volume.grid, 1, state.cursor[kind.axis]);
+    const std::string name = kind.name;
+    const ImVec2 from{scaled(6), scaled(3)};
+    const std::string text =
+        fitting({name + ' ' + place + " mm", name + ' ' + place, place + " mm", place}, rect.size.x - 2 * from.x);
+    addRimmed(list, {rect.corner.x + from.x, rect.corner.y + from.y}, IM_COL32(180, 188, 198, 255), text.c_str());
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    return {from.x + size.x, from.y + size.y};
+}
+
+/// `caption`: how far it reaches from the upper left corner.
+void drawLetters(const SliceKind& kind, const Rect& rect, const ImVec2& caption, ImDrawList& list) {
     const ImU32 colour = IM_COL32(225, 229, 235, 255);
     const float size = ImGui::GetFontSize();
+    const float middle = rect.size.x / 2 - size * 0.3F;
     const auto text = [&](float x, float y, const char* letter) {
         addRimmed(list, {rect.corner.x + x, rect.corner.y + y}, colour, letter);
     };
     text(scaled(4), rect.size.y / 2 - size / 2, kind.left);
     text(rect.size.x - size * 0.8F, rect.size.y / 2 - size / 2, kind.right);
-    text(rect.size.x / 2 - size * 0.3F, scaled(2), kind.top);
-    text(rect.size.x / 2 - size * 0.3F, rect.size.y - size - scaled(3), kind.bottom);
+    text(middle, caption.x + scaled(4) < middle ? scaled(2) : caption.y, kind.top);
+    text(middle, rect.size.y - size - scaled(3), kind.bottom);
 }
 
 } // namespace
@@ -128,10 +142,7 @@ void drawSlice(State& state, std::size_t slice) {
         }
     }
     drawClosest(state, slice, place, rect, list);
-    drawLetters(kind, rect, list);
-    const std::string text =
-        std::string(kind.name) + ' ' + mmText(state.volume.grid, 1, state.cursor[kind.axis]) + " mm";
-    addRimmed(list, {corner.x + scaled(6), corner.y + scaled(3)}, IM_COL32(180, 188, 198, 255), text.c_str());
+    drawLetters(kind, rect, drawCaption(state, kind, rect, list), list);
     list.PopClipRect();
 }
 

@@ -148,6 +148,35 @@ std::string shortened(const std::string& text, float width) {
     return std::string(text.data(), end) + kDots;
 }
 
+std::string fitting(std::initializer_list<std::string> texts, float width) {
+    const auto* const fits = std::ranges::find_if(
+        texts, [width](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x <= width; });
+    return fits != texts.end() ? *fits : *(texts.end() - 1);
+}
+
+void shortLine(const ImVec4& colour, const std::string& text) {
+    const std::string line = shortened(text, ImGui::GetContentRegionAvail().x);
+    ImGui::TextColored(colour, "%s", line.c_str());
+    if (line != text && ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("%s", text.c_str());
+    }
+}
+
+float widthOfButton(const char* text) {
+    return ImGui::CalcTextSize(text).x + 2 * ImGui::GetStyle().FramePadding.x;
+}
+
+float widthOfCheckbox(const char* text) {
+    return ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x + ImGui::CalcTextSize(text).x;
+}
+
+void sameLine(float width) {
+    const float right = ImGui::GetItemRectMax().x + ImGui::GetStyle().ItemSpacing.x + width;
+    if (right <= ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x) {
+        ImGui::SameLine();
+    }
+}
+
 ImVec2 draggedBy() {
     const ImGuiIO& io = ImGui::GetIO();
     const bool pressed = std::ranges::any_of(io.MouseClicked, [](bool one) { return one; });
