@@ -87,4 +87,29 @@ TEST(ViewDialogs, EscapeClosesThoseThatAskForAPath) {
     }
 }
 
+TEST(ViewDialogs, EscapeClosesMenusAndListsAndNothingElse) {
+    State state = smallState();
+    ShownPanels panels(state);
+    const auto isOpen = [] {
+        return ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+    };
+    const Point2 menu{20, 10};
+    const Point2 presets{state.chart.corner[0] + state.chart.size[0] - 90, state.chart.corner[1] - 15};
+    for (const Point2& place : {menu, presets}) {
+        state.maximised = Maximised::Picture;
+        panels.click(place[0], place[1]);
+        panels.frame();
+        ASSERT_TRUE(isOpen()) << place[0];
+        state.keys.push_back({GLFW_KEY_ESCAPE});
+        panels.frame();
+        panels.frame();
+        EXPECT_FALSE(isOpen()) << place[0];
+        EXPECT_EQ(state.maximised, Maximised::Picture);
+        // The next one is the window's again.
+        state.keys.push_back({GLFW_KEY_ESCAPE});
+        panels.frame();
+        EXPECT_EQ(state.maximised, Maximised::None);
+    }
+}
+
 } // namespace voxtact::test

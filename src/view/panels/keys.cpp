@@ -4,6 +4,7 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <array>
@@ -235,7 +236,13 @@ void takeKeys(State& state) {
         takeSavingKeys(state, keys);
         return;
     }
-    if (ImGui::GetIO().WantTextInput || ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId)) {
+    if (ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId)) {
+        if (state.escaped) {
+            ImGui::ClosePopupsExceptModals(); // menus and lists: dialogs have a button that cancels
+        }
+        return;
+    }
+    if (ImGui::GetIO().WantTextInput) {
         return; // they are written into a field
     }
     for (const KeyPress& press : keys) {
@@ -275,6 +282,7 @@ void drawHelp(State& state) {
         row("control O", "open a file, as does dropping it on the window; escape: cancel while it is loaded");
         row("control S, control P", "save the session, a picture (escape cancels it)");
         row("control Q", "quit");
+        row("escape", "close what is open over the panels; a picture or slice as large as before");
         row("handles", "drag: arrows move along an axis, squares in a plane, rings turn; control: in steps");
         row("picture", "left: turn; right or middle: move; wheel: nearer; double click: larger");
         row("cube", "click: look at a side of the patient");
