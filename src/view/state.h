@@ -8,6 +8,7 @@
 #include "view/model/document/document.h"
 #include "view/model/document/history.h"
 #include "view/model/document/labels.h"
+#include "view/model/document/pose.h"
 #include "view/model/document/question.h"
 #include "view/model/files/loading.h"
 #include "view/model/shown/gizmo.h"
@@ -229,6 +230,7 @@ struct State {
     std::optional<std::size_t> cubeSide;    ///< of kPatientSides, under the pointer
     std::optional<std::size_t> cubePressed; ///< that the left button was pressed on
     std::optional<std::size_t> listedMesh;  ///< the chosen one that the list of meshes was scrolled to
+    std::optional<TypedAngles> typedAngles; ///< of the chosen instrument, or one before
     bool helpOpen = false;
     bool comparing = false; ///< the counts of all methods are shown
     bool quit = false;

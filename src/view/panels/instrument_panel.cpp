@@ -39,11 +39,34 @@ void drawPlace(State& state) {
     if (ImGui::IsItemDeactivated()) {
         state.history.end();
     }
-    Vec3 angles = anglesOf(state.document.edit.pose());
-    for (double& angle : angles) {
-        angle = std::round(10 * angle) / 10 + 0.0; // no -0.0
+}
+
+/// The same of how it is turned.
+void drawAngles(State& state) {
+    const Vec3 exact = anglesOf(state.document.edit.pose(), state.typedAngles);
+    constexpr double kShown = 100; // parts of a degree
+    Vec3 shown = exact;
+    for (double& angle : shown) {
+        angle = std::round(kShown * angle) / kShown + 0.0; // no -0.0
     }
-    ImGui::TextColored(quietColour(), "turned %.1f, %.1f, %.1f degrees about x, y, z", angles[0], angles[1], angles[2]);
+    Vec3 numbers = shown;
+    ImGui::SetNextItemWidth(-ImGui::CalcTextSize("turned \u00B0_").x);
+    constexpr float kDegreesOfPoint = 0.5F;
+    if (ImGui::DragScalarN("turned \u00B0", ImGuiDataType_Double, numbers.data(), 3, kDegreesOfPoint, nullptr, nullptr,
+                           "%.2f")) {
+        Vec3 to = exact;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            to[axis] = numbers[axis] != shown[axis] ? numbers[axis] : exact[axis];
+        }
+        state.command([&](Edit& edit) { edit.pose() = turnedTo(edit.pose(), to); }, "turned");
+        state.typedAngles = TypedAngles{state.document.edit.pose(), to};
+    }
+    if (ImGui::IsItemDeactivated()) {
+        state.history.end();
+    }
+    if (ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("degrees about x, then y, then z of the world, round the origin of the mesh");
+    }
 }
 
 /// A pair of buttons, less and more.
@@ -147,6 +170,7 @@ void drawInstrument(State& state) {
     heading("Instrument");
     drawMeshes(state);
     drawPlace(state);
+    drawAngles(state);
     drawNudges(state);
     drawSteps(state);
     drawGizmoChoice(state);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "view/model/document/pose.h"
 
+#include "core/geometry/vec3.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -33,6 +35,14 @@ Mat4 rotation(const Vec3& axis, double degrees) {
             0,
             0,
             1};
+}
+
+/// A unit vector at right angles to two; to the first and an axis of the world where both go the same way.
+Vec3 upright(const Vec3& x, const Vec3& y) {
+    constexpr double kSame = 1e-9;
+    const bool along = std::abs(x[1]) > 0.9;
+    const Vec3 out = cross(x, y);
+    return unit(length(out) < kSame ? cross(x, along ? Vec3{-1, 0, 0} : Vec3{0, 1, 0}) : out);
 }
 
 } // namespace
@@ -94,11 +104,33 @@ Mat4 turnedAbout(const Mat4& world_from_object, const Vec3& axis, double degrees
 }
 
 Vec3 anglesOf(const Mat4& world_from_object) noexcept {
+    // A rotation whatever the pose does to shapes, which turns as the pose is turned.
     const Vec3 x = axisOf(world_from_object, 0);
-    const Vec3 y = axisOf(world_from_object, 1);
-    const Vec3 z = axisOf(world_from_object, 2);
-    const double aboutY = std::asin(std::clamp(-x[2], -1.0, 1.0));
-    return {std::atan2(y[2], z[2]) / kDegree, aboutY / kDegree, std::atan2(x[1], x[0]) / kDegree};
+    const Vec3 z = upright(x, axisOf(world_from_object, 1));
+    const Vec3 y = cross(z, x);
+    const double level = std::hypot(x[0], x[1]);
+    const double aboutY = std::atan2(-x[2], level) / kDegree;
+    constexpr double kUpright = 1e-9; // no more than rounding leaves
+    if (level < kUpright) {
+        return {std::atan2(-z[1], y[1]) / kDegree, aboutY, 0};
+    }
+    return {std::atan2(y[2], z[2]) / kDegree, aboutY, std::atan2(x[1], x[0]) / kDegree};
+}
+
+Vec3 anglesOf(const Mat4& world_from_object, const std::optional<TypedAngles>& typed) noexcept {
+    return typed && typed->world_from_object == world_from_object ? typed->degrees : anglesOf(world_from_object);
+}
+
+Mat4 turnedTo(const Mat4& world_from_object, const Vec3& degrees) noexcept {
+    const Vec3 before = anglesOf(world_from_object);
+    Mat4 out = world_from_object;
+    for (std::size_t i = 0; i < 3; ++i) { // back about z, y, x
+        out = turned(out, 2 - i, -before[2 - i], Axes::World);
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        out = turned(out, axis, std::isfinite(degrees[axis]) ? degrees[axis] : before[axis], Axes::World);
+    }
+    return out;
 }
 
 } // namespace voxtact::view

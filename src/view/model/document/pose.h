@@ -4,6 +4,7 @@
 #include "voxtact/data.h"
 
 #include <cstddef>
+#include <optional>
 
 /// Small moves of an instrument. Pure functions; poses are `world_from_object`.
 namespace voxtact::view {
@@ -34,7 +35,20 @@ inline constexpr double kFarthestPlace = 1e12;
 /// The object's own axis in the world, of unit length; the world's axis where it has no length.
 [[nodiscard]] Vec3 axisOf(const Mat4& world_from_object, std::size_t axis) noexcept;
 
-/// The object turned against the world, in degrees: about x, then y, then z of the world. Of the rotation alone.
+/// The object turned against the world, in degrees: about x, then y, then z of the world. Of the rotation alone: that
+/// of its x axis, and of its y axis as far as that stands upright on it. Where x goes along the world's z, z is 0.
 [[nodiscard]] Vec3 anglesOf(const Mat4& world_from_object) noexcept;
+
+/// Angles that were typed, and the pose that they made: others would make the same one.
+struct TypedAngles {
+    Mat4 world_from_object{};
+    Vec3 degrees{};
+};
+
+/// Those that were typed for this pose; else the same as without.
+[[nodiscard]] Vec3 anglesOf(const Mat4& world_from_object, const std::optional<TypedAngles>& typed) noexcept;
+
+/// The same place and shape, turned so that anglesOf() is a rotation by `degrees`. An angle that is not finite stays.
+[[nodiscard]] Mat4 turnedTo(const Mat4& world_from_object, const Vec3& degrees) noexcept;
 
 } // namespace voxtact::view
