@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <iterator>
 #include <string>
+#include <vector>
 
 namespace voxtact::view {
 
@@ -62,6 +63,19 @@ const char* clipboard(void* window) {
     return text.c_str();
 }
 
+/// A key that came and went since the last frame is down in this one: fields would not see it. Returns those.
+std::vector<int> pressTaps(const std::vector<KeyPress>& presses) {
+    std::vector<int> taps;
+    for (const KeyPress& press : presses) {
+        const bool ends = press.key == GLFW_KEY_ENTER || press.key == GLFW_KEY_KP_ENTER || press.key == GLFW_KEY_ESCAPE;
+        if (ends && !ImGui::GetIO().KeysDown[press.key]) {
+            ImGui::GetIO().KeysDown[press.key] = true;
+            taps.push_back(press.key);
+        }
+    }
+    return taps;
+}
+
 /// Dear ImGui counts them by when frames come.
 void countClicks(const Pointer::Seen& seen) {
     ImGuiIO& io = ImGui::GetIO();
@@ -111,7 +125,11 @@ const ImDrawData& drawAllPanels(State& state) {
     if (seen.at) {
         io.MousePos = {static_cast<float>((*seen.at)[0]), static_cast<float>((*seen.at)[1])};
     }
+    const std::vector<int> taps = pressTaps(state.keys);
     ImGui::NewFrame();
+    for (const int key : taps) {
+        io.KeysDown[key] = false;
+    }
     countClicks(seen);
     drawPanels(state);
     state.update();

@@ -3,6 +3,8 @@
 
 #include "voxtact/samples.h"
 
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -44,6 +46,10 @@ ShownPanels::ShownPanels(State& state, float scale, const Extent& points) : stat
     io.DisplaySize = {static_cast<float>(points.width) * scale, static_cast<float>(points.height) * scale};
     io.DeltaTime = 0.02F; // two clicks are soon after another
     io.MousePos = {1, 1};
+    for (const auto& [key, number] : {std::pair(ImGuiKey_Tab, GLFW_KEY_TAB), std::pair(ImGuiKey_Enter, GLFW_KEY_ENTER),
+                                      std::pair(ImGuiKey_Escape, GLFW_KEY_ESCAPE)}) {
+        io.KeyMap[key] = number;
+    }
     applyTheme(scale, fontBytes());
     unsigned char* pixels = nullptr;
     int width = 0;
@@ -116,6 +122,30 @@ void ShownPanels::drag(double x, double y, double right, double down, int button
         moveTo(x + right * step / kSteps, y + down * step / kSteps);
     }
     release(button);
+}
+
+void ShownPanels::type(const std::string& text) {
+    for (const char letter : text) {
+        ImGui::GetIO().AddInputCharacter(static_cast<unsigned>(letter));
+        frame();
+    }
+}
+
+void ShownPanels::tap(int key) {
+    state_->keys.push_back({key});
+    ImGui::GetIO().KeysDown[key] = true;
+    frame();
+    ImGui::GetIO().KeysDown[key] = false;
+    frame();
+}
+
+void ShownPanels::writeAt(double x, double y) {
+    ImGui::GetIO().KeyCtrl = true;
+    ImGui::GetIO().KeyMods = ImGuiKeyModFlags_Ctrl;
+    click(x, y);
+    ImGui::GetIO().KeyCtrl = false;
+    ImGui::GetIO().KeyMods = ImGuiKeyModFlags_None;
+    frame();
 }
 
 void ShownPanels::turnWheel(double x, double y, float notches) {

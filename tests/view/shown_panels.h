@@ -33,6 +33,12 @@ class ShownPanels {
     void pressAt(double x, double y, int button = 0);
     /// Pressed, moved by so many points in some frames, released.
     void drag(double x, double y, double right, double down, int button = 0);
+    /// A letter a frame.
+    void type(const std::string& text);
+    /// A key of GLFW's goes down and up, for the window and for Dear ImGui.
+    void tap(int key);
+    /// A number's field is there, to be written in.
+    void writeAt(double x, double y);
     void turnWheel(double x, double y, float notches);
 
   private:

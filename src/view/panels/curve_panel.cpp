@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "view/model/shown/chart_axis.h"
 #include "view/model/shown/histogram.h"
+#include "view/panels/fields.h"
 #include "view/panels/panels.h"
 
 #include "voxtact/looks.h"
@@ -102,6 +103,20 @@ void drawLine(const State& state, const Chart& chart, ImDrawList& list) {
     list.AddLine(before, chart.at({chart.domain.hi, curve.back().opacity}), colour, scaled(2));
 }
 
+void drawThresholdField(State& state) {
+    double threshold = state.document.edit.threshold;
+    ImGui::SetNextItemWidth(-ImGui::CalcTextSize("threshold_").x);
+    if (slideNumber("threshold", threshold, 0, 1, "%.3f")) {
+        constexpr double kSteps = 1000;
+        state.command(
+            [&](Edit& edit) { edit.threshold = std::clamp(std::round(threshold * kSteps) / kSteps, 0.0, 1.0); },
+            "threshold");
+    }
+    if (ImGui::IsItemDeactivated()) {
+        state.history.end();
+    }
+}
+
 void drawPoints(const State& state, const Chart& chart, ImDrawList& list) {
     const Curve& curve = state.document.edit.curve;
     const ImU32 colour = ImGui::GetColorU32(ImGuiCol_SliderGrab);
@@ -188,10 +203,10 @@ void drawChosen(State& state) {
     ControlPoint typed = curve[*state.curvePoint];
     const float width = ImGui::GetFontSize() * 4.5F;
     ImGui::SetNextItemWidth(width);
-    bool changed = ImGui::InputDouble("value", &typed.value, 0, 0, "%.6g", ImGuiInputTextFlags_EnterReturnsTrue);
+    bool changed = typeNumber("value", typed.value, "%.6g");
     sameLine(width + ImGui::GetStyle().ItemInnerSpacing.x + ImGui::CalcTextSize("opacity").x);
     ImGui::SetNextItemWidth(width);
-    changed |= ImGui::InputDouble("opacity", &typed.opacity, 0, 0, "%.3g", ImGuiInputTextFlags_EnterReturnsTrue);
+    changed |= typeNumber("opacity", typed.opacity, "%.3g");
     if (changed && std::isfinite(typed.value) && std::isfinite(typed.opacity)) {
         state.command([&](Edit& edit) { movePoint(edit.curve, *state.curvePoint, typed, state.document.domain); });
     }
@@ -248,10 +263,14 @@ void drawHeading(State& state) {
     ImGui::Checkbox("log", &state.logHistogram);
 }
 
+float heightOfChart() {
+    return ImGui::GetFontSize() * 6.5F;
+}
+
 void drawChart(State& state) {
     const float axis = ImGui::GetFontSize();
     const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const ImVec2 size{ImGui::GetContentRegionAvail().x, ImGui::GetFontSize() * 6.5F};
+    const ImVec2 size{ImGui::GetContentRegionAvail().x, heightOfChart()};
     state.chart.corner = {static_cast<double>(corner.x), static_cast<double>(corner.y)};
     state.chart.size = {static_cast<double>(size.x), static_cast<double>(size.y)};
     ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -277,21 +296,13 @@ void drawChart(State& state) {
 
 void drawCurve(State& state) {
     drawHeading(state);
-    drawChart(state);
+    const ImVec2 chart = ImGui::GetCursorPos();
+    // The fields below it first: what is typed is of the point that was chosen until the mouse takes another one.
+    ImGui::SetCursorPosY(chart.y + heightOfChart() + ImGui::GetFontSize() + ImGui::GetStyle().ItemSpacing.y);
     drawChosen(state);
-    const double least = 0;
-    const double most = 1;
-    double threshold = state.document.edit.threshold;
-    ImGui::SetNextItemWidth(-ImGui::CalcTextSize("threshold_").x);
-    if (ImGui::SliderScalar("threshold", ImGuiDataType_Double, &threshold, &least, &most, "%.3f")) {
-        constexpr double kSteps = 1000;
-        state.command(
-            [&](Edit& edit) { edit.threshold = std::clamp(std::round(threshold * kSteps) / kSteps, 0.0, 1.0); },
-            "threshold");
-    }
-    if (ImGui::IsItemDeactivated()) {
-        state.history.end();
-    }
+    drawThresholdField(state);
+    ImGui::SetCursorPos(chart);
+    drawChart(state);
 }
 
 } // namespace voxtact::view

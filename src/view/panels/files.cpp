@@ -2,6 +2,7 @@
 #include "core/base/try.h"
 #include "view/model/files/open_file.h"
 #include "view/model/files/save_file.h"
+#include "view/panels/fields.h"
 #include "view/panels/panels.h"
 
 #include <imgui_stdlib.h>
@@ -34,12 +35,14 @@ void drawPictureSize(const State& state) {
     if (sides[0] <= 0) {
         sides = {static_cast<int>(state.picture.extent.width), static_cast<int>(state.picture.extent.height)};
     }
-    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 11);
-    ImGui::InputInt2("width x height", sides.data());
-    for (int& side : sides) {
-        side = std::clamp(side, 16, kMost);
+    const std::array<const char*, 2> labels{"##width", "width x height"};
+    for (std::size_t side = 0; side < sides.size(); ++side) {
+        ImGui::SetNextItemWidth(ImGui::GetFontSize() * 5);
+        if (typeNumber(labels[side], sides[side])) {
+            sides[side] = std::clamp(sides[side], 16, kMost);
+        }
+        ImGui::SameLine();
     }
-    ImGui::SameLine();
     if (ImGui::Button("as in the window")) {
         sides = {0, 0};
     }

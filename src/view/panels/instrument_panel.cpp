@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "view/model/document/pose.h"
+#include "view/panels/fields.h"
 #include "view/panels/panels.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace voxtact::view {
@@ -20,24 +20,19 @@ void turn(State& state, std::size_t axis, double degrees, Axes axes) {
 
 /// The tip in numbers: dragged or typed.
 void drawPlace(State& state) {
-    const Vec3 tip = originOf(state.document.edit.pose());
-    std::array<float, 3> numbers{static_cast<float>(tip[0]), static_cast<float>(tip[1]), static_cast<float>(tip[2])};
+    Vec3 to = originOf(state.document.edit.pose());
     ImGui::SetNextItemWidth(-ImGui::CalcTextSize("tip, mm_").x);
     const int decimals = decimalsOn(state.volume.grid, 2);
     const std::string format = "%." + std::to_string(decimals) + "f";
     const auto speed = static_cast<float>(std::pow(10, 1 - decimals));
-    if (ImGui::DragFloat3("tip, mm", numbers.data(), speed, 0, 0, format.c_str())) {
-        Vec3 to = tip;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            // What was not changed keeps the digits that a float has not.
-            if (numbers[axis] != static_cast<float>(tip[axis])) {
-                to[axis] = static_cast<double>(numbers[axis]);
-            }
-        }
+    if (dragNumbers("tip, mm", to, speed, format.c_str())) {
         state.command([&](Edit& edit) { edit.pose() = placedAt(edit.pose(), to); }, "tip");
     }
     if (ImGui::IsItemDeactivated()) {
         state.history.end();
+    }
+    if (ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("mm along x, y, z of the world: where the origin of the mesh is");
     }
 }
 
@@ -49,14 +44,12 @@ void drawAngles(State& state) {
     for (double& angle : shown) {
         angle = std::round(kShown * angle) / kShown + 0.0; // no -0.0
     }
-    Vec3 numbers = shown;
+    Vec3 to = shown;
     ImGui::SetNextItemWidth(-ImGui::CalcTextSize("turned \u00B0_").x);
     constexpr float kDegreesOfPoint = 0.5F;
-    if (ImGui::DragScalarN("turned \u00B0", ImGuiDataType_Double, numbers.data(), 3, kDegreesOfPoint, nullptr, nullptr,
-                           "%.2f")) {
-        Vec3 to = exact;
+    if (dragNumbers("turned \u00B0", to, kDegreesOfPoint, "%.2f")) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            to[axis] = numbers[axis] != shown[axis] ? numbers[axis] : exact[axis];
+            to[axis] = to[axis] != shown[axis] ? to[axis] : exact[axis];
         }
         state.command([&](Edit& edit) { edit.pose() = turnedTo(edit.pose(), to); }, "turned");
         state.typedAngles = TypedAngles{state.document.edit.pose(), to};
@@ -114,22 +107,27 @@ void drawNudges(State& state) {
 }
 
 void drawSteps(State& state) {
+    constexpr double kLeast = 1e-6;
     const float width = ImGui::GetFontSize() * 4;
     ImGui::SetNextItemWidth(width);
-    ImGui::InputDouble("mm", &state.stepMillimetres, 0, 0, "%.3g");
+    constexpr double kMost = 1000;
+    if (typeNumber("mm", state.stepMillimetres, "%.3g")) {
+        state.stepMillimetres = std::clamp(state.stepMillimetres, kLeast, kMost);
+    }
     sameLine(width + ImGui::GetStyle().ItemInnerSpacing.x + ImGui::CalcTextSize("degrees a step").x);
     ImGui::SetNextItemWidth(width);
-    ImGui::InputDouble("degrees a step", &state.stepDegrees, 0, 0, "%.3g");
-    constexpr double kMost = 1000;
-    state.stepMillimetres = std::clamp(state.stepMillimetres, 1e-6, kMost);
-    state.stepDegrees = std::clamp(state.stepDegrees, 1e-6, 180.0);
+    if (typeNumber("degrees a step", state.stepDegrees, "%.3g")) {
+        state.stepDegrees = std::clamp(state.stepDegrees, kLeast, 180.0);
+    }
 }
 
 void drawDrill(State& state) {
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 4);
-    ImGui::InputDouble("mm", &state.drillRadius, 0, 0, "%.3g");
+    constexpr double kLeast = 1e-3;
     constexpr double kMost = 1000;
-    state.drillRadius = std::clamp(state.drillRadius, 1e-3, kMost);
+    if (typeNumber("mm", state.drillRadius, "%.3g")) {
+        state.drillRadius = std::clamp(state.drillRadius, kLeast, kMost);
+    }
     if (ImGui::IsItemHovered()) {
         ImGui::SetTooltip("radius of the holes; their voxels get the image's smallest value");
     }
@@ -155,7 +153,7 @@ void drawPoses(State& state) {
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-1);
     const std::string format = "pose %d of " + std::to_string(count);
-    if (ImGui::SliderInt("##poses", &number, 0, static_cast<int>(count) - 1, format.c_str())) {
+    if (slideNumber("##poses", number, 0, static_cast<int>(count) - 1, format.c_str())) {
         // The slider is held until its history ends.
         state.takePose(static_cast<std::size_t>(std::clamp(number, 0, static_cast<int>(count) - 1)), true);
     }

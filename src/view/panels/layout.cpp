@@ -2,6 +2,8 @@
 #include "view/model/files/open_file.h"
 #include "view/panels/panels.h"
 
+#include <imgui_internal.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -119,7 +121,8 @@ template <class Draw> void card(const char* name, float height, float& whole, Dr
                           ImGuiWindowFlags_AlwaysUseWindowPadding | (height < whole ? ImGuiWindowFlags_None : fixed));
     draw();
     if (inSight) {
-        whole = std::ceil(ImGui::GetCursorPosY() - style.ItemSpacing.y + style.WindowPadding.y);
+        const ImGuiWindow& window = *ImGui::GetCurrentWindow();
+        whole = std::ceil(window.DC.CursorMaxPos.y - window.Pos.y + window.Scroll.y + style.WindowPadding.y);
     }
     ImGui::EndChild();
 }
