@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <imgui_internal.h>
 
 #include <cmath>
 
@@ -138,6 +139,28 @@ TEST(ViewChart, StaysWhereItIsWhateverIsChosenBelow) {
         panels.frame();
         ASSERT_TRUE(state.curvePoint);
         EXPECT_EQ(state.chart.size, size);
+    }
+}
+
+TEST(ViewChart, WhatIsUnderThePointerIsSaidBesideIt) {
+    for (const Extent& points : {kLeastWindow, Extent{1280, 800}}) {
+        for (const float scale : {1.0F, 2.0F}) {
+            State state = smallState();
+            ShownPanels panels(state, scale, points);
+            for (const double opacity : {0.05, 0.5, 0.95}) {
+                const std::array<double, 2> at = placeOf(state, 20, opacity);
+                panels.moveTo(at[0], at[1]);
+                panels.frame();
+                panels.frame(); // its size is known then
+                const ImGuiWindow* said = ImGui::FindWindowByName("##Tooltip_00");
+                ASSERT_TRUE(said != nullptr && said->WasActive);
+                const ImVec2 corner{static_cast<float>(state.chart.corner[0]),
+                                    static_cast<float>(state.chart.corner[1])};
+                const ImVec2 size{static_cast<float>(state.chart.size[0]), static_cast<float>(state.chart.size[1])};
+                EXPECT_FALSE(said->Rect().Overlaps({corner, {corner.x + size.x, corner.y + size.y}})) << points.width;
+                EXPECT_TRUE(ImRect({0, 0}, ImGui::GetIO().DisplaySize).Contains(said->Rect())) << points.width;
+            }
+        }
     }
 }
 

@@ -185,9 +185,14 @@ void takeMouse(State& state, const Chart& chart) {
         }
     }
     if (ImGui::IsItemHovered()) {
-        ImGui::SetTooltip(
-            "value %.6g, opacity %.3f\nleft: take or add a point; right: remove it; wheel: zoom; middle: move",
-            under.value, std::clamp(under.opacity, 0.0, 1.0));
+        // Beside the chart, on which the hand works: over the picture.
+        const float line = ImGui::GetFontSize();
+        const float low = io.DisplaySize.y - 8 * line; // of a column that is scrolled
+        const float y = std::clamp(chart.corner.y, std::min(2 * line, low), low);
+        ImGui::SetNextWindowPos({chart.corner.x - line, y}, ImGuiCond_Always, {1, 0});
+        ImGui::SetTooltip("value %.6g, opacity %.3f\nleft: take or add a point\nright: remove it\nwheel: zoom\n"
+                          "middle: move",
+                          under.value, std::clamp(under.opacity, 0.0, 1.0));
     }
 }
 
