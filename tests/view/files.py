@@ -122,7 +122,7 @@ def coarser(program, folder):
 def notes(program, folder):
     """What strikes in what is shown is in the window, not on standard error alone."""
     metres = pathlib.Path(folder, "tool.obj")
-    metres.write_text("v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nf 1 2 3\n")
+    metres.write_text("v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0.05 0 0\nf 1 2 3\nf 1 2 4\n")
     pathlib.Path(folder, "curve.json").write_text('{"points": [[10, 0], [100, 1]]}')
     scene = ["--volume", "builtin:head:32", "--mesh", "builtin:scalpel:300", "--preset", "ct-lung", "--device", "cpu"]
     preset, empty, size = "--preset ct-lung is in Hounsfield units", "none of its values, 0 to 255", "--mesh-scale 1000"
@@ -141,9 +141,13 @@ def notes(program, folder):
         window.until("that of the mesh gone with it", said())
         window.press("ctrl+z", "ctrl+z")
         window.until("all of them again", said(preset, empty, size))
+        window.open(metres)
+        window.until("a second one of that mesh", said(preset, empty, size, size))
         window.press("ctrl+q")
         out, err = window.process.communicate(timeout=PATIENCE)
-        assert window.process.returncode == 0 and out == "" and err.count("note: ") == 5, err
+        lines = err.splitlines()  # each once, with those of the reader and the device
+        assert window.process.returncode == 0 and out == "" and len(lines) == len(set(lines)) == 5, err
+        assert sum("triangles have no area" in line for line in lines) == 1, err
 
 
 def session(program, folder):

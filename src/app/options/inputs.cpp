@@ -41,7 +41,7 @@ Error sourceFault(const char* option, const std::string& source, const Error& er
 void printNotes(const std::string& source, const std::vector<std::string>& notes) {
     for (const std::string& note : notes) {
         const bool named = note.find(source) != std::string::npos;
-        printNote(named ? note : source + ": " + note);
+        printNoteOnce(named ? note : source + ": " + note);
     }
 }
 
@@ -205,7 +205,7 @@ Result<std::map<std::int32_t, std::string>> loadLabelNames(const std::filesystem
     }
     Result<std::vector<io::LabelName>> read = io::readLabelNames(path);
     if (!read.ok() && names.empty()) {
-        printNote("labels have numbers only: " + read.error().text + " (--label-names names another file)");
+        printNoteOnce("labels have numbers only: " + read.error().text + " (--label-names names another file)");
         return std::map<std::int32_t, std::string>{};
     }
     if (!read.ok()) {

@@ -5,8 +5,6 @@
 #include "core/base/text.h"
 #include "voxtact/looks.h"
 
-#include <set>
-
 namespace voxtact::app {
 
 namespace {
@@ -53,11 +51,8 @@ std::string presetNote(const std::string& preset, const ValueRange& data) {
 
 void printOpacityNotes(const TransferFunctionDesc& function, const ValueRange& data, double threshold,
                        const std::string& source, std::string_view who) {
-    static std::set<std::string> said;
     for (const std::string& note : opacityNotes(function, data, threshold, source, who)) {
-        if (said.insert(note).second) {
-            printNote(note);
-        }
+        printNoteOnce(note);
     }
 }
 

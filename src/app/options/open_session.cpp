@@ -15,7 +15,8 @@ Result<device::Session> openSession(const DeviceChoice& choice, const SessionExt
     const Result<device::PhysicalDevice> chosen = device::chooseDevice(*devices, choice.wanted);
     VOXTACT_TRY(chosen);
     return device::openSessionOn(*instance, *chosen, pipelineStore(choice, *chosen),
-                                 [](void*, const char* text) { printNote(text); }, {.extensions = extensions.device});
+                                 [](void*, const char* text) { printNoteOnce(text); },
+                                 {.extensions = extensions.device});
 }
 
 device::PipelineStore pipelineStore(const DeviceChoice& choice, const device::PhysicalDevice& device) {

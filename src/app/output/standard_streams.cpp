@@ -7,6 +7,8 @@
 #include <cerrno>
 #include <csignal>
 #include <fcntl.h>
+#include <mutex>
+#include <set>
 #include <system_error>
 #include <unistd.h>
 
@@ -77,6 +79,15 @@ void printNote(std::string_view text) {
         return;
     }
     printLine("voxtact: note: " + std::string(text));
+}
+
+void printNoteOnce(const std::string& text) {
+    static std::mutex mutex;
+    static std::set<std::string> said;
+    const std::lock_guard lock(mutex);
+    if (said.insert(text).second) {
+        printNote(text);
+    }
 }
 
 void printError(std::string_view command, std::string_view text) {

@@ -20,6 +20,9 @@ void claimStandardStreams() noexcept;
 
 /// Standard error, one line whatever `text` holds: "voxtact: note: text".
 void printNote(std::string_view text);
+/// The same of a text that was not printed by this before: what is true of a file stays true when it is read again. Any
+/// thread.
+void printNoteOnce(const std::string& text);
 /// "voxtact detect: text"; `command` may be empty.
 void printError(std::string_view command, std::string_view text);
 /// The same of a lack of memory, without any.
