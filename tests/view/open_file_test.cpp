@@ -201,6 +201,13 @@ TEST_F(ViewOpen, WhatIsOfAnotherKindIsNotWrittenOver) {
     EXPECT_THAT(saveSession(other, state_).error().text, HasSubstr("is there already, and is no session"));
     EXPECT_THAT(saveFunction(other, state_).error().text, HasSubstr("is no transfer function"));
     EXPECT_THAT(savePose(other, state_).error().text, HasSubstr("is no file of poses"));
+    // And before anybody is asked whether it is to be replaced.
+    EXPECT_THAT(checkSession(other, state_).error().text, HasSubstr("is there already, and is no session"));
+    EXPECT_THAT(checkFunction(other, state_).error().text, HasSubstr("is no transfer function"));
+    EXPECT_THAT(checkPose(other, state_).error().text, HasSubstr("is no file of poses"));
+    EXPECT_THAT(checkPicture(other, state_).error().text, HasSubstr("the ending of a picture is .png"));
+    EXPECT_THAT(checkPicture(file("text.png", "no picture"), state_).error().text, HasSubstr("is no picture"));
+    EXPECT_TRUE(checkPicture(folder_ / "new.PNG", state_).ok());
     std::ifstream kept(other);
     EXPECT_EQ(std::string(std::istreambuf_iterator<char>(kept), {}), "keep me");
     for (int again = 0; again < 2; ++again) {

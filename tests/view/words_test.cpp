@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "shown_panels.h"
+#include "view/model/files/save_file.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
 #include <array>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <unistd.h>
 
 namespace voxtact::test {
 
@@ -85,6 +90,40 @@ TEST(ViewDialogs, EscapeClosesThoseThatAskForAPath) {
         EXPECT_FALSE(state.shot);
         EXPECT_TRUE(state.error.empty()) << state.error;
     }
+}
+
+TEST(ViewDialogs, WhatCannotBeWrittenIsNotAskedAbout) {
+    const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("dialog" + std::to_string(getpid()));
+    std::filesystem::create_directory(folder);
+    const std::filesystem::path other = folder / "notes.md";
+    std::ofstream(other) << "keep me";
+    State state = smallState();
+    ShownPanels panels(state);
+    for (const int key : std::array{GLFW_KEY_S, GLFW_KEY_P}) {
+        state.keys.push_back({key, false, true});
+        panels.frame();
+        panels.frame();
+        panels.type(other.string());
+        EXPECT_EQ(state.field, other.string());
+        panels.tap(GLFW_KEY_ENTER);
+        EXPECT_FALSE(state.error.empty()) << key;
+        EXPECT_FALSE(state.field) << key;
+        panels.tap(GLFW_KEY_ENTER);
+        EXPECT_TRUE(state.error.empty()) << state.error;
+    }
+    // One of the same kind is asked about.
+    const std::filesystem::path session = folder / "session.json";
+    ASSERT_TRUE(saveSession(session, state).ok());
+    state.keys.push_back({GLFW_KEY_S, false, true});
+    panels.frame();
+    panels.frame();
+    panels.type(session.string());
+    panels.tap(GLFW_KEY_ENTER);
+    panels.frame(); // its field has the keyboard again
+    EXPECT_EQ(state.field, session.string());
+    EXPECT_TRUE(state.error.empty()) << state.error;
+    panels.tap(GLFW_KEY_ESCAPE);
+    std::filesystem::remove_all(folder);
 }
 
 TEST(ViewDialogs, EscapeClosesMenusAndListsAndNothingElse) {

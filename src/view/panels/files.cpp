@@ -53,6 +53,7 @@ struct PathDialog {
     const char* title;
     const char* button;
     std::string path;
+    Result<void> (*check)(const std::filesystem::path& path, const State& state); ///< what act() would refuse; or null
     Result<void> (*act)(const std::filesystem::path& path, State& state);
     std::string written{};  ///< the path that it wrote last: it is written again without a question
     std::string replaced{}; ///< a path that is there already, and has been asked about
@@ -71,24 +72,23 @@ struct PathDialog {
 
 std::array<PathDialog, 5>& dialogs() {
     static std::array<PathDialog, 5> all{{
-        {kSession, "save", "session.json",
+        {kSession, "save", "session.json", checkSession,
          [](const std::filesystem::path& path, State& state) -> Result<void> {
              VOXTACT_TRY(saveSession(path, state));
              state.say("the session is in " + path.string());
              state.taken.push_back(path.string());
              return {};
          }},
-        {"Save transfer function", "save", "curve.json",
+        {"Save transfer function", "save", "curve.json", checkFunction,
          [](const std::filesystem::path& path, State& state) { return saveFunction(path, state); }},
-        {"Save pose", "save", "pose.txt",
+        {"Save pose", "save", "pose.txt", checkPose,
          [](const std::filesystem::path& path, State& state) { return savePose(path, state); }},
-        {kPicture, "save", "picture.png",
+        {kPicture, "save", "picture.png", checkPicture,
          [](const std::filesystem::path& path, State& state) -> Result<void> {
-             VOXTACT_TRY(checkPicture(path, state));
              state.shot = Shot{path.string(), pictureSize()};
              return {};
          }},
-        {kOpen, "open", "", openFile},
+        {kOpen, "open", "", nullptr, openFile},
     }};
     return all;
 }
@@ -117,6 +117,25 @@ Buttons drawButtons(const PathDialog& dialog, bool isAsked) {
         pressed.cancel = ImGui::Button("cancel");
     }
     return pressed;
+}
+
+/// With the path that it has. What cannot be is said before there is a question.
+void goOn(PathDialog& dialog, State& state) {
+    Result<void> done = dialog.check != nullptr ? dialog.check(dialog.path, state) : Result<void>();
+    if (done.ok() && !dialog.mayAct()) {
+        dialog.takesKeyboard = true;
+        return;
+    }
+    ImGui::CloseCurrentPopup();
+    state.say(std::string(dialog.title) + ": " + dialog.path);
+    done = done.ok() ? dialog.act(dialog.path, state) : done;
+    if (!done.ok()) {
+        state.say({});
+        state.complain(done.error().text);
+    } else if (dialog.title != kPicture) { // which is not written yet, and may be cancelled
+        dialog.written = dialog.path;
+    }
+    dialog.replaced.clear();
 }
 
 void drawPathDialog(PathDialog& dialog, State& state) {
@@ -156,18 +175,8 @@ void drawPathDialog(PathDialog& dialog, State& state) {
     done |= buttons.goOn;
     if (buttons.cancel || state.escaped) {
         ImGui::CloseCurrentPopup();
-    } else if (done && !dialog.path.empty() && !dialog.mayAct()) {
-        dialog.takesKeyboard = true;
     } else if (done && !dialog.path.empty()) {
-        ImGui::CloseCurrentPopup();
-        state.say(std::string(dialog.title) + ": " + dialog.path);
-        if (const Result<void> acted = dialog.act(dialog.path, state); !acted.ok()) {
-            state.say({});
-            state.complain(acted.error().text);
-        } else if (dialog.title != kPicture) { // which is not written yet, and may be cancelled
-            dialog.written = dialog.path;
-        }
-        dialog.replaced.clear();
+        goOn(dialog, state);
     }
     ImGui::EndPopup();
 }

@@ -18,14 +18,6 @@ namespace {
 
 constexpr std::array<std::string_view, 6> kMeshEndings{".stl", ".obj", ".ply", ".off", ".gltf", ".glb"};
 
-std::string endingOf(const std::filesystem::path& path) {
-    std::string ending = path.extension().string();
-    std::ranges::transform(ending, ending.begin(), [](char letter) {
-        return static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
-    });
-    return ending;
-}
-
 Result<void> openFunction(const std::filesystem::path& path, State& state) {
     const Result<std::vector<ControlPoint>> points = io::readTransferFunction(path);
     VOXTACT_TRY(points);
@@ -81,6 +73,14 @@ void want(State& state, FileKind kind, const std::string& path) {
 }
 
 } // namespace
+
+std::string endingOf(const std::filesystem::path& path) {
+    std::string ending = path.extension().string();
+    std::ranges::transform(ending, ending.begin(), [](char letter) {
+        return static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+    });
+    return ending;
+}
 
 Result<FileKind> kindOfFile(const std::filesystem::path& path) {
     const std::string ending = endingOf(path);

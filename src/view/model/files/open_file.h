@@ -4,9 +4,13 @@
 #include "view/state.h"
 
 #include <filesystem>
+#include <string>
 
 /// What is opened while the window is there: by its menu, or dropped on it.
 namespace voxtact::view {
+
+/// In small letters, with its dot.
+[[nodiscard]] std::string endingOf(const std::filesystem::path& path);
 
 /// By the ending: STL, OBJ, PLY, OFF, glTF and GLB are meshes, .txt are poses, .json is a session where it says so and
 /// else a transfer function. All else is a volume, folders too. Refuses a .json that cannot be read.

@@ -4,6 +4,7 @@
 #include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "view/model/answers/command_text.h"
+#include "view/model/files/open_file.h"
 #include "view/model/files/session_file.h"
 #include "voxtact/io.h"
 
@@ -29,33 +30,48 @@ Result<void> check(const std::filesystem::path& path, const State& state, const 
 
 } // namespace
 
-Result<void> saveSession(const std::filesystem::path& path, const State& state) {
-    VOXTACT_TRY(check(path, state, "session", [&path] {
+Result<void> checkSession(const std::filesystem::path& path, const State& state) {
+    return check(path, state, "session", [&path] {
         const Result<bool> session = isSession(path);
         return session.ok() && *session;
-    }));
-    return writeSession(path, state.saved());
-}
-
-Result<void> saveFunction(const std::filesystem::path& path, const State& state) {
-    VOXTACT_TRY(check(path, state, "transfer function", [&path] { return io::readTransferFunction(path).ok(); }));
-    return writeTransferFunction(path, state.document);
-}
-
-Result<void> savePose(const std::filesystem::path& path, const State& state) {
-    VOXTACT_TRY(check(path, state, "file of poses", [&path] { return io::readPoses(path).ok(); }));
-    return io::writeFile(path, [&state](std::ostream& out) -> Result<void> {
-        out << poseText(state.document.edit.pose()) << "\n";
-        return {};
     });
 }
 
+Result<void> checkFunction(const std::filesystem::path& path, const State& state) {
+    return check(path, state, "transfer function", [&path] { return io::readTransferFunction(path).ok(); });
+}
+
+Result<void> checkPose(const std::filesystem::path& path, const State& state) {
+    return check(path, state, "file of poses", [&path] { return io::readPoses(path).ok(); });
+}
+
 Result<void> checkPicture(const std::filesystem::path& path, const State& state) {
+    if (endingOf(path) != ".png") {
+        return refuse("cannot write '" + path.string() + "': the ending of a picture is .png");
+    }
     return check(path, state, "picture", [&path] {
         constexpr std::string_view kPng = "\x89PNG\r\n";
         std::array<char, kPng.size()> first{};
         std::ifstream(path, std::ios::binary).read(first.data(), first.size());
         return std::string_view(first.data(), first.size()) == kPng;
+    });
+}
+
+Result<void> saveSession(const std::filesystem::path& path, const State& state) {
+    VOXTACT_TRY(checkSession(path, state));
+    return writeSession(path, state.saved());
+}
+
+Result<void> saveFunction(const std::filesystem::path& path, const State& state) {
+    VOXTACT_TRY(checkFunction(path, state));
+    return writeTransferFunction(path, state.document);
+}
+
+Result<void> savePose(const std::filesystem::path& path, const State& state) {
+    VOXTACT_TRY(checkPose(path, state));
+    return io::writeFile(path, [&state](std::ostream& out) -> Result<void> {
+        out << poseText(state.document.edit.pose()) << "\n";
+        return {};
     });
 }
 
