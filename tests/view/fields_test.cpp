@@ -128,6 +128,24 @@ TEST(ViewFields, EscapeAndAFieldThatNothingIsWrittenInChangeNothing) {
     EXPECT_EQ(tipX(state), 5);
 }
 
+TEST(ViewFields, WhatIsTypedMayBeWhatStoodThere) {
+    State state = smallState();
+    state.document.edit.pose() = translation({61.3, 0, 0});
+    ShownPanels panels(state);
+    const Point2 at = placeOfTip(state, panels);
+    for (const std::string& text : {std::string("61.3"), std::string("61.30")}) {
+        panels.writeAt(at[0], at[1]);
+        panels.type(text);
+        panels.tap(GLFW_KEY_ENTER);
+        EXPECT_EQ(tipX(state), 61.3) << text;
+        panels.writeAt(at[0], at[1]);
+        panels.type(text);
+        clickBeside(state, panels);
+        EXPECT_EQ(tipX(state), 61.3) << text;
+    }
+    EXPECT_FALSE(state.history.canUndo());
+}
+
 TEST(ViewFields, AnAngleIsTyped) {
     State state = smallState();
     ShownPanels panels(state);

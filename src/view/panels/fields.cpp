@@ -4,18 +4,16 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
-#include <optional>
-
 namespace voxtact::view {
 
 namespace {
 
 /// What stands in the field that is typed in, which Dear ImGui forgets when another one gets the keyboard.
 struct Typing {
-    ImGuiID field = 0;            ///< 0: none
-    double began = 0;             ///< what stood there at first: to Dear ImGui another number is one that was written
-    std::optional<double> number; ///< none: nothing was written yet
-    int frame = 0;                ///< the last one that showed it
+    ImGuiID field = 0; ///< 0: none
+    double began = 0;  ///< what stood there at first
+    double number = 0; ///< what stands there now
+    int frame = 0;     ///< the last one that showed it
 };
 
 Typing& typing() {
@@ -31,12 +29,12 @@ bool takes(const char* label, Number& number, const Draw& draw, const IsTyped& i
     const ImGuiID item = ImGui::GetID(label);
     const Number before = number;
     const bool wasTyped = now.field == item && now.frame + 1 == ImGui::GetFrameCount();
-    number = wasTyped ? static_cast<Number>(now.began) : before;
+    // Whatever has become of `before`: to Dear ImGui a number other than that in the field is one that was written.
+    number = wasTyped ? static_cast<Number>(now.number) : before;
     const bool edited = draw(number);
-    const std::optional<double> last =
-        edited ? static_cast<double>(number) : (wasTyped ? now.number : std::optional<double>());
     if (isTyped(item)) {
-        now = {item, wasTyped ? now.began : static_cast<double>(before), last, ImGui::GetFrameCount()};
+        now = {item, wasTyped ? now.began : static_cast<double>(before), static_cast<double>(number),
+               ImGui::GetFrameCount()};
         number = before;
         return false;
     }
@@ -45,7 +43,8 @@ bool takes(const char* label, Number& number, const Draw& draw, const IsTyped& i
     }
     // It was left in this frame, or after the one before.
     const bool restored = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
-    number = last && !restored ? static_cast<Number>(*last) : before;
+    const bool written = static_cast<double>(number) != now.began;
+    number = written && !restored ? number : before;
     now = {};
     return number != before;
 }
