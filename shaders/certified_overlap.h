@@ -14,9 +14,8 @@
 /// distance from the cell, which is at most a few voxels more than `reach`; and the delta is at least 2^-18 of that.
 /// Edges are differences of corners, off by 2^-24 of each component, however short they are.
 #define CERTIFIED_OVERLAP_MARGIN 8.0f
-/// Voxels: nothing is said of triangles that may be displaced farther, nor of those that reach farther.
+/// Voxels: nothing is said of triangles that may be displaced farther, and so of none that reaches 128 voxels.
 #define CERTIFIED_OVERLAP_DELTA 0.00048828125f
-#define CERTIFIED_OVERLAP_REACH 1024.0f
 
 #include "exact_language.h"
 
@@ -26,7 +25,7 @@ namespace voxtact::shader {
 
 /// Whether something is said of a triangle.
 EXACT bool certifiedOverlapMayBeAsked(CertifiedTriangle triangle) {
-    return triangle.delta <= CERTIFIED_OVERLAP_DELTA && triangle.reach <= CERTIFIED_OVERLAP_REACH;
+    return triangle.delta <= CERTIFIED_OVERLAP_DELTA;
 }
 
 /// How much farther out than 1/2, as a part of an axis' length, a triangle's shadow on it begins: the shadow is from

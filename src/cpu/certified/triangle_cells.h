@@ -45,7 +45,7 @@ class TriangleCells {
         Bits none = 0; ///< it leaves nothing
     };
 
-    /// Whether something is said of a triangle: nothing of large ones, either.
+    /// Whether something is said of a triangle.
     [[nodiscard]] static bool mayBeAsked(const shader::CertifiedTriangle& triangle) noexcept {
         return shader::certifiedOverlapMayBeAsked(triangle);
     }

@@ -59,6 +59,7 @@ void setColours(Theme theme) {
         style.Colors[ImGuiCol_ChildBg] = rgb(250, 250, 251);
         style.Colors[ImGuiCol_WindowBg] = rgb(233, 236, 240);
         style.Colors[ImGuiCol_TextDisabled] = rgb(92, 98, 106);
+        style.Colors[ImGuiCol_SliderGrab] = style.Colors[ImGuiCol_CheckMark] = rgb(24, 96, 190); // headings, too
     }
 }
 
