@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The ranges of the stored values of bricks (src/core/volume/bricks.h), a work group a brick: of all the corners of its cells,
-// and of those of the cells one farther out too. A NaN counts for neither end: every sample that it has a part in is
-// NaN, which is never opaque. A brick of nothing else has an empty range, +inf to -inf. Of a level above the bricks
-// (brick_levels.h) a work group has a node, and a lane one of those below it.
+// The ranges of the stored values of bricks (src/core/volume/bricks.h), a work group per brick: of all the corners of
+// its cells, and of those of the cells one farther out too. A NaN counts for neither end: every sample that it has a
+// part in is NaN, which is never opaque. A brick of nothing else has an empty range, +inf to -inf. Of a level above the
+// bricks (brick_levels.h) a work group has a node, and a lane one of those below it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

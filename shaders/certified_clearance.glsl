@@ -119,9 +119,9 @@ ClearanceFound nothingFound() {
 const uint kMostTurns = 1024;
 
 /// Something opaque is as near to a triangle, or nearer. Who betters the distance writes what proves it, too, and one
-/// lane a pair does so at a time: so what is kept always proves the distance that is. All that it touches is atomic, and
-/// what ends its turn needs what came before; so that is seen in order without a memory barrier, which lavapipe takes
-/// for one of the work group. What could not be told is left open: the next step finds it again.
+/// lane per pair does so at a time: so what is kept always proves the distance that is. All that it touches is atomic,
+/// and what ends its turn needs what came before; so that is seen in order without a memory barrier, which lavapipe
+/// takes for one of the work group. What could not be told is left open: the next step finds it again.
 void foundAt(uint pair, uint triangle, float distance, ClosestPlace place) {
     const uint hi = clearanceWord(pair) + VOXTACT_CLEARANCE_HI;
     if (!kClosest) {

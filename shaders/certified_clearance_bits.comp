@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where clearances are measured: the bits of the bricks that want them, a work group a brick.
+// Where clearances are measured: the bits of the bricks that want them, a work group per brick.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define MARGIN

@@ -5,7 +5,7 @@
 #ifndef VOXTACT_CERTIFIED_CLEARANCE_BITS_GLSL
 #define VOXTACT_CERTIFIED_CLEARANCE_BITS_GLSL
 
-const uint kCellWords = VOXTACT_BITS_WORDS / 2; // of one bit a cell
+const uint kCellWords = VOXTACT_BITS_WORDS / 2; // of one bit per cell
 /// Slots that a brick may have.
 const uint kSlotTries = 8;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Where clearances are measured, the decision: a lane a cell of a triangle, which it looks into as long as something in
-// it may be nearer than what is known. With PROBE, before all of them are, only the first cell of a brick on the way from
-// its nearest triangle: that bounds the distance above.
+// Where clearances are measured, the decision: a lane per cell of a triangle, which it looks into as long as something
+// in it may be nearer than what is known. With PROBE, before all of them are, only the first cell of a brick on the way
+// from its nearest triangle: that bounds the distance above.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define MARGIN

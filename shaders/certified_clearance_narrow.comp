@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where clearances are measured, before the decision: a lane a cell of a triangle looks at it as a whole. Then, with
+// Where clearances are measured, before the decision: a lane per cell of a triangle looks at it as a whole. Then, with
 // AGAIN, those go on in which what may be opaque may be nearer than what is known by then.
 #version 460
 #extension GL_GOOGLE_include_directive : require

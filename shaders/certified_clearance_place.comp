@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the closest points of pairs are wanted, after the search: a lane a pair makes one point of what proves its
+// Where the closest points of pairs are wanted, after the search: a lane per pair makes one point of what proves its
 // distance. Something is opaque in a brick or a cell, or between two points of one, as the interpolant takes all values
 // in between; so halving leads there.
 #version 460

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where the closest points of pairs are wanted, the end: a lane a pair makes its ClosestResult of an opaque point and a
-// triangle.
+// Where the closest points of pairs are wanted, the end: a lane per pair makes its ClosestResult of an opaque point and
+// a triangle.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "clearance_words.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Where clearances are measured, between two steps: a lane a pair sees what the step has found, and how far the next one
-// is to look. What a step has looked at completely is farther than it asked, than what was found less the tolerance, or
-// than what was left undecided, whichever is nearest.
+// Where clearances are measured, between two steps: a lane per pair sees what the step has found, and how far the next
+// one is to look. What a step has looked at completely is farther than it asked, than what was found less the
+// tolerance, or than what was left undecided, whichever is nearest.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The projection `conservative`, what of a mesh may touch: a lane a cluster of a pair, or, with RUNS, a run of a cluster
-// that was kept. Those whose boxes meet a brick that may be opaque go on to the next pass. Where stopAtFirst is wanted,
-// a vertex of what is kept is looked at, too: in opaque matter it proves the touch, and ends the work on its pair. With
-// MARGIN the boxes are grown by it, with TURN by how far a turn brings them, too, and what is as far from the vertex
-// along the grid's axes is looked at as well. With MOVE they are grown by how far a piece of the way brings them, and
-// what long pieces bring near something ends the work on its pair: those are halved. With CLEARANCE those go on that may
-// be nearer to something opaque than what is known of their pair; SCOUT is the first step, which ends here.
+// The projection `conservative`, what of a mesh may touch: a lane per cluster of a pair, or, with RUNS, a run of a
+// cluster that was kept. Those whose boxes meet a brick that may be opaque go on to the next pass. Where stopAtFirst is
+// wanted, a vertex of what is kept is looked at, too: in opaque matter it proves the touch, and ends the work on its
+// pair. With MARGIN the boxes are grown by it, with TURN by how far a turn brings them, too, and what is as far from
+// the vertex along the grid's axes is looked at as well. With MOVE they are grown by how far a piece of the way brings
+// them, and what long pieces bring near something ends the work on its pair: those are halved. With CLEARANCE those go
+// on that may be nearer to something opaque than what is known of their pair; SCOUT is the first step, which ends here.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The projection `conservative`, the decision: a lane a cell. What single precision leaves undecided goes to
+// The projection `conservative`, the decision: a lane per cell. What single precision leaves undecided goes to
 // certified_finish.comp.
 #version 460
 #extension GL_GOOGLE_include_directive : require

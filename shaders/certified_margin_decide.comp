@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The projection `conservative` with a margin, the decision: a lane a cell. What it leaves undecided is *possible*.
+// The projection `conservative` with a margin, the decision: a lane per cell. What it leaves undecided is *possible*.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define MARGIN

@@ -38,13 +38,13 @@
 /// Bits of each node of a label map: that of a label's number modulo it is set where a voxel of it is a corner of the
 /// node's cells. 32 for each component of a uvec4.
 #define VOXTACT_LABEL_BITS 128
-// From a multiple of 256 bytes on: four words a pair, in the end its ClearanceResult.
+// From a multiple of 256 bytes on: four words per pair, in the end its ClearanceResult.
 #define VOXTACT_WORD_CLEARANCES(room) ((VOXTACT_WORD_LABEL(room) + 4 + 63) / 64 * 64)
 // Behind the clearances, from a multiple of 256 bytes on, what open_pairs.h says. `pairs`: as many as there is room
 // for.
 #define VOXTACT_WORD_OPEN_PAIRS(room, pairs)                                                                           \
     (VOXTACT_WORD_CLEARANCES(room) + ((pairs)*VOXTACT_CLEARANCE_WORDS + 63) / 64 * 64)
-// Where closest points are wanted, behind that, from a multiple of 256 bytes on: so many words a pair, in the end its
+// Where closest points are wanted, behind that, from a multiple of 256 bytes on: so many words per pair, in the end its
 // ClosestResult.
 #define VOXTACT_WORD_CLOSEST(room, pairs)                                                                              \
     (VOXTACT_WORD_OPEN_PAIRS(room, pairs) + (VOXTACT_OPEN_PAIRS_WORDS(pairs) + 63) / 64 * 64)

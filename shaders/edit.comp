@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Gives the voxels of rows one value, in texels that were copied out of an image and go back there: a lane a word.
+// Gives the voxels of rows one value, in texels that were copied out of an image and go back there: a lane per word.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"

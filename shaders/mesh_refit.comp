@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Fits the boxes of a mesh's clusters, and of their runs, to its vertices: a work group a cluster, a lane a triangle.
-// Floats are compared as words: no device flushes or rounds these, so that the boxes are the host's, and one that holds
-// a NaN has it as its end, which meets all cells.
+// Fits the boxes of a mesh's clusters, and of their runs, to its vertices: a work group per cluster, a lane per
+// triangle. Floats are compared as words: no device flushes or rounds these, so that the boxes are the host's, and one
+// that holds a NaN has it as its end, which meets all cells.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared.h"

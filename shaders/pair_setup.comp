@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A lane a pose: what the passes need of the pair, and its result with a count of zero. With CERTIFIED for the
+// A lane per pose: what the passes need of the pair, and its result with a count of zero. With CERTIFIED for the
 // projection `conservative`; with OF_HOST for poses of the host's, in double precision, which it has checked.
 #version 460
 #extension GL_GOOGLE_include_directive : require

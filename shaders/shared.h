@@ -211,8 +211,8 @@ struct CertifiedItem {
     int sizeX; // voxels
     int sizeY;
     int sizeZ;
-    float scale[9]; // of the places that `place` of CertifiedPair gives: in units a voxel; three parts, as there. With
-                    // a margin: what marginOf() takes from there; of a clearance: the same of a margin of 1, flat
+    float scale[9]; // of the places that `place` of CertifiedPair gives: in units per voxel; three parts, as there.
+                    // With a margin: what marginOf() takes from there; of a clearance: the same of a margin of 1, flat
 };
 
 /// Push constants of the projection `conservative`, of all its passes.
@@ -394,7 +394,7 @@ struct CertifiedConstants {
 #define VOXTACT_MARGIN_GROUP 32
 // Those of the brick pass.
 #define VOXTACT_BRICK_GROUP 64
-// A brick is 2^VOXTACT_BRICK_SHIFT cells a side: src/core/volume/bricks.h.
+// A brick is 2^VOXTACT_BRICK_SHIFT cells per side: src/core/volume/bricks.h.
 #define VOXTACT_BRICK_SHIFT 3
 
 #ifdef __cplusplus

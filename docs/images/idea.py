@@ -4,9 +4,9 @@
 computed, the count too. It follows the reader's light or dark scheme. Usage: idea.py > idea.svg"""
 import math
 
-VOXELS, CELL = 15, 20          # voxels a side, and pixels of the picture a voxel
+VOXELS, CELL = 15, 20          # voxels per side, and pixels of the picture a voxel
 SIDE = VOXELS * CELL
-FRAGMENT = CELL // 2           # two fragments a voxel
+FRAGMENT = CELL // 2           # two fragments per voxel
 BLADE = [(-40, 92), (205, 120), (222, 136), (205, 146), (-40, 168)]
 LOW, HIGH, THRESHOLD = 0.42, 0.62, 0.5
 INK, FAINT, OPAQUE, BAD = "#22303c", "#8a97a3", "#c8402a", "#9aa5ae"

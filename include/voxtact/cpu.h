@@ -36,7 +36,7 @@ struct PlannerImpl;
 /// A 3D image on the host, with the smallest and largest value of each brick of 8^3 voxels.
 class Volume {
   public:
-    /// Refuses what checkVolume() refuses, and more than 2^23 voxels a side, which floats cannot address
+    /// Refuses what checkVolume() refuses, and more than 2^23 voxels per side, which floats cannot address
     /// (LimitExceeded). Copies the voxels.
     [[nodiscard]] VOXTACT_API static Result<Volume> create(const VolumeView& data);
     VOXTACT_API Volume(Volume&&) noexcept;
@@ -118,7 +118,7 @@ struct BatchItem {
 /// The pairs of one call: the items in order, each with its poses in order.
 struct Batch {
     std::span<const BatchItem> items{};   ///< any number; answers are in their order
-    View view{};                          ///< at most kMaxViewport pixels a side; only for projections with a camera
+    View view{};                          ///< at most kMaxViewport pixels per side; only for projections with a camera
     double threshold = kDefaultThreshold; ///< 0..1
     /// Ends a call early, from any thread: once it is true, the call soon returns ErrorCode::Cancelled, with all of its
     /// threads at rest. They look at it between cells and steps of a search; what one of them has seen is not taken

@@ -147,7 +147,7 @@ struct OpacityFacts {
 [[nodiscard]] VOXTACT_API Result<OpacityFacts> checkOpacity(const TransferFunctionDesc& desc, const ValueRange& data,
                                                             double threshold = kDefaultThreshold);
 
-/// A triangle mesh somebody else owns, in object space. Three floats a vertex, three indices a triangle.
+/// A triangle mesh somebody else owns, in object space. Three floats per vertex, three indices per triangle.
 struct MeshView {
     std::span<const float> positions;       ///< x, y, z of each vertex, object space
     std::span<const std::uint32_t> indices; ///< three per triangle

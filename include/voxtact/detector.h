@@ -27,7 +27,7 @@ struct DetectorDesc {
     std::uint32_t samplesPerVoxel = kDefaultSamplesPerVoxel; ///< dominant-axis: along a voxel's side; 1 to 16
     double resolution = kDefaultResolution;                  ///< conservative, voxels; 2^-12 to 1
     bool stopAtFirst = false; ///< conservative without outputs: the count is then 0 or 1, its exactness LowerBound
-    /// conservative: what the passes do is counted, for Results::counters(). Costs some atomics a triangle; nothing
+    /// conservative: what the passes do is counted, for Results::counters(). Costs some atomics per triangle; nothing
     /// where it is not asked for.
     bool counters = false;
     /// dominant-axis: every pixel that a triangle touches gives a fragment, by VK_EXT_conservative_rasterization. Its
@@ -157,20 +157,20 @@ struct ResultsDesc {
     /// motions. In any case fewer where its maxComputeWorkGroupCount (16384 for each 65535 along x) or
     /// maxStorageBufferRange has no room for so many.
     std::optional<std::uint32_t> clustersAtOnce = std::nullopt;
-    /// For detectors with DetectorDesc::clearance: 68 bytes of device memory a pair, 16 of the host's where there is a
-    /// copy, and 648 bytes more for each of clustersAtOnce. They take the queues of the projection conservative.
+    /// For detectors with DetectorDesc::clearance: 68 bytes of device memory per pair, 16 of the host's where there is
+    /// a copy, and 648 bytes more for each of clustersAtOnce. They take the queues of the projection conservative.
     bool clearances = false;
-    /// For detectors with DetectorDesc::closest, beside `clearances`, without which it is refused: 48 bytes a pair,
+    /// For detectors with DetectorDesc::closest, beside `clearances`, without which it is refused: 48 bytes per pair,
     /// of the device's memory and of the host's.
     bool closest = false;
     /// For detectors with DetectorDesc::labelClearances, beside `clearances`, without which it is refused: how many
     /// labels there is room for, with each of maxPairs; at most kMostMeasuredLabels. 16 bytes each, of
     /// the device's memory and of the host's.
     std::uint32_t labelClearances = 0;
-    /// For detectors with DetectorDesc::motion: 1308 bytes of device memory a pair, 32 of the host's where there is a
+    /// For detectors with DetectorDesc::motion: 1308 bytes of device memory per pair, 32 of the host's where there is a
     /// copy, and 648 bytes more for each of clustersAtOnce.
     bool motions = false;
-    /// What the host makes of poses goes through mapped memory of the Results, 248 bytes a pair, in place of the
+    /// What the host makes of poses goes through mapped memory of the Results, 248 bytes per pair, in place of the
     /// command buffer. Recording a batch of thousands of pairs then takes a fraction of the time with drivers that are
     /// slow to write into command buffers, as NVIDIA's is; by a detector with devicePoses it is the poses themselves,
     /// which is several times faster still. In exchange a batch may be recorded only when the submission of the one

@@ -223,7 +223,7 @@ class Renderer {
 struct Picture {
     std::uint32_t width = 0;        ///< pixels
     std::uint32_t height = 0;       ///< pixels
-    std::vector<std::uint8_t> rgba; ///< four bytes a pixel, the uppermost row first
+    std::vector<std::uint8_t> rgba; ///< four bytes per pixel, the uppermost row first
 };
 
 /// The blocking convenience: renders into an image of its own (R8G8B8A8_UNORM), submits on the caller's queue, waits,

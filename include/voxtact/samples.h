@@ -39,13 +39,13 @@ inline constexpr double kNeedleLength = 200; ///< see kNeedleDiameter
 /// diameter and length in mm (`needle:1.5:180`): the names after `builtin:` on the command line.
 [[nodiscard]] VOXTACT_API Result<MeshData> makeBuiltinMesh(std::string_view name);
 
-/// Synthetic volumes, 200 mm a side, centred on the world's origin. The name may end in the number of voxels a side,
-/// from 4 to 1024: `head:256`; without one there are 128.
-/// `head` (uint8, a layered head: skin, skull, brain, ventricles; the voxels on the boundary are 0), `sphere` (uint8, a
-/// ramp that falls from 255 at the centre to 0 at 0.45 of the side), `noise` (uint16, smooth noise, stretched to reach
-/// both 0 and 4095), `ct` (int16, -1024..3071, the same head in HU, anisotropic and oblique, a third as many slices,
-/// rounded up), `shells` (float, 0..1, thin shells at 20, 40, 60 and 80 mm, 3 voxels thick), `vessels` (uint8, a sparse
-/// tree of tubes, from 255 on their axes to 0, that enters through the lowest face; half as many slices, rounded up).
+/// Synthetic volumes, 200 mm per side, centred on the world's origin. The name may end in the number of voxels per
+/// side, from 4 to 1024: `head:256`; without one there are 128. `head` (uint8, a layered head: skin, skull, brain,
+/// ventricles; the voxels on the boundary are 0), `sphere` (uint8, a ramp that falls from 255 at the centre to 0 at
+/// 0.45 of the side), `noise` (uint16, smooth noise, stretched to reach both 0 and 4095), `ct` (int16, -1024..3071, the
+/// same head in HU, anisotropic and oblique, a third as many slices, rounded up), `shells` (float, 0..1, thin shells at
+/// 20, 40, 60 and 80 mm, 3 voxels thick), `vessels` (uint8, a sparse tree of tubes, from 255 on their axes to 0, that
+/// enters through the lowest face; half as many slices, rounded up).
 [[nodiscard]] VOXTACT_API Result<VolumeData> makeBuiltinVolume(std::string_view name);
 
 /// For measuring methods: the builtin scalpel at 32 poses, from just outside to deep inside the builtin head of 64^3

@@ -51,8 +51,8 @@ struct WrappedVolume {
 struct VolumeOptions {
     const char* name = nullptr; ///< appears on the Vulkan objects; may be null
     /// Keeps the range of values of every brick of 8^3 cells on the device, which passes that skip what is transparent
-    /// need. 16 bytes a brick, and about a seventh more for boxes of 2^3, 4^3, ... bricks; refused where they are more
-    /// than the device's maxStorageBufferRange.
+    /// need. 16 bytes per brick, and about a seventh more for boxes of 2^3, 4^3, ... bricks; refused where they are
+    /// more than the device's maxStorageBufferRange.
     bool bricks = false;
     /// Allows cmdSet(), cmdWrite() and cmdCopy(); keeps room on the device for the texels of one slice or of a MiB,
     /// what is more, and 64 KiB for rows. Refused where a slice has more than the device's maxStorageBufferRange.
@@ -226,7 +226,7 @@ struct WrappedMesh {
 /// How a mesh is made.
 struct MeshOptions {
     const char* name = nullptr; ///< appears on the Vulkan objects; may be null
-    /// Clusters of near triangles are made and kept beside it, 4 to 5 bytes a triangle, for the projection
+    /// Clusters of near triangles are made and kept beside it, 4 to 5 bytes per triangle, for the projection
     /// `conservative` to skip those that cannot touch. create() then sorts the triangles, O(n log n).
     bool clusters = false;
     /// Allows cmdUpdate() and cmdCopy(); keeps the triangles on the host, 12 bytes each, 16 with clusters.

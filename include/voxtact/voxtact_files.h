@@ -67,7 +67,7 @@ VXT_CHECKED vxt_result vxt_read_camera(const char* path, double clip_from_world[
 typedef struct vxt_poses vxt_poses;
 /// One matrix a line, row by row: voxtact::io::readPoses().
 VXT_CHECKED vxt_result vxt_read_poses(const char* path, vxt_poses** poses);
-/// 16 doubles a pose, column by column, as items take them; valid as long as the object. `count` is of poses.
+/// 16 doubles per pose, column by column, as items take them; valid as long as the object. `count` is of poses.
 VXT_API const double* vxt_poses_get(const vxt_poses* poses, size_t* count);
 /// Ends it.
 VXT_API void vxt_poses_destroy(vxt_poses* poses);

@@ -65,7 +65,7 @@ typedef struct vxt_host_item {
     const vxt_host_mesh* mesh;                           ///< what touches
     const vxt_host_volume* volume;                       ///< what is touched
     const vxt_host_transfer_function* transfer_function; ///< what of it is opaque
-    const double* world_from_object;                     ///< 16 doubles a pose; affine
+    const double* world_from_object;                     ///< 16 doubles per pose; affine
     size_t pose_count;                                   ///< poses: a pair each
     const vxt_labels* labels;                            ///< for the outputs CONTACTS (optional) and LABELS; else null
 } vxt_host_item;

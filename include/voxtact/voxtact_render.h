@@ -328,7 +328,7 @@ VXT_CHECKED vxt_result vxt_renderer_cmd_render(const vxt_renderer* renderer, VkC
 /// The pixels of a picture, where they are.
 typedef struct vxt_picture_view {
     size_t struct_size;  ///< sizeof
-    const uint8_t* rgba; ///< four bytes a pixel, row by row without padding, the uppermost first; alpha is 255
+    const uint8_t* rgba; ///< four bytes per pixel, row by row without padding, the uppermost first; alpha is 255
     size_t bytes;        ///< of `rgba`: 4 * width * height
     uint32_t width;      ///< pixels
     uint32_t height;     ///< pixels

@@ -99,7 +99,7 @@ typedef struct vxt_item {
     const vxt_mesh* mesh;                           ///< outlives the command buffer, as the others do
     const vxt_volume* volume;                       ///< what is touched
     const vxt_transfer_function* transfer_function; ///< what of it is opaque
-    const double* world_from_object;                ///< 16 doubles a pose; affine; read while recording only
+    const double* world_from_object;                ///< 16 doubles per pose; affine; read while recording only
     size_t pose_count;                              ///< poses: a pair each
     const vxt_label_map* labels;  ///< for the outputs CONTACTS (optional) and LABELS, and label_clearances
     const vxt_pose_buffer* poses; ///< on the device: the first pose_count of them, world_from_object being null; for

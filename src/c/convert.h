@@ -38,7 +38,7 @@ void writeVec3(double* out, const Vec3& vector, const char* what);
 /// A view that no projection with a camera accepts where there is none.
 [[nodiscard]] View toView(const vxt_view* view) noexcept;
 [[nodiscard]] Outputs toOutputs(std::uint32_t outputs, double maxDepth);
-/// Where they are; 16 doubles a pose.
+/// Where they are; 16 doubles per pose.
 [[nodiscard]] std::span<const Mat4> toPoses(const double* poses, std::size_t count, const char* what);
 [[nodiscard]] std::span<const std::byte> toBytes(const void* bytes, std::size_t count, const char* what);
 

@@ -11,7 +11,7 @@ namespace {
 
 /// A pair is split only where its parts keep a thread busy for longer than it takes to wake it.
 constexpr std::uint32_t kFewestClusters = 16;
-/// Parts a thread, so that unequal ones even out.
+/// Parts per thread, so that unequal ones even out.
 constexpr std::uint32_t kPartsPerThread = 4;
 
 } // namespace

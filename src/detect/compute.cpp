@@ -42,7 +42,8 @@ Result<void> ComputePass::check(const Batch& batch) const {
         if (viewport.width > kMost || viewport.height > kMost) {
             return Error{ErrorCode::LimitExceeded, 0,
                          "the viewport is " + std::to_string(viewport.width) + "x" + std::to_string(viewport.height) +
-                             ", the counting method compute does at most " + std::to_string(kMost) + " pixels a side"};
+                             ", the counting method compute does at most " + std::to_string(kMost) +
+                             " pixels per side"};
         }
         VOXTACT_TRY(checkStorage(item, "the counting method compute"));
     }

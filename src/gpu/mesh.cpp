@@ -129,7 +129,7 @@ Result<void> checkWrapped(const WrappedMesh& wrapped) {
         return refuse("WrappedMesh::clusters needs buffers that can be read as storage: WrappedMesh::storage");
     }
     if (wrapped.indices == VK_NULL_HANDLE && wrapped.vertexCount < 3 * std::uint64_t{wrapped.triangleCount}) {
-        return refuse("WrappedMesh has no indices and fewer than three vertices a triangle");
+        return refuse("WrappedMesh has no indices and fewer than three vertices per triangle");
     }
     if (wrapped.indices == VK_NULL_HANDLE) {
         return {};

@@ -86,7 +86,7 @@ struct MeshImpl {
     Buffer staging{};      ///< of the buffer; of a wrapped mesh: its triangles in clusters
     bool uploaded = false; ///< recorded, or the caller's own
     bool editable = false;
-    /// Of an editable mesh: three indices a triangle, the triangles in clusters (empty without), and what was known
+    /// Of an editable mesh: three indices per triangle, the triangles in clusters (empty without), and what was known
     /// when it was made.
     std::vector<std::uint32_t> triangles{};
     std::vector<std::uint32_t> order{};

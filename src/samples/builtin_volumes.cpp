@@ -178,7 +178,7 @@ constexpr std::array<Maker, 6> kMakers{{{"head", makeHead},
 
 Result<VolumeData> makeBuiltinVolume(std::string_view name) {
     return guard([&]() -> Result<VolumeData> {
-        Result<BuiltinName> parsed = parseBuiltinName("volume", name, "voxels a side");
+        Result<BuiltinName> parsed = parseBuiltinName("volume", name, "voxels per side");
         VOXTACT_TRY(parsed);
         std::string known;
         for (const Maker& maker : kMakers) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Counted pairs a second of the host engine, for the two built-in instruments against a head, over poses near the
+// Counted pairs per second of the host engine, for the two built-in instruments against a head, over poses near the
 // volume, around the onset of contact, and deep inside. Each scene is verified against the reference before it is
 // timed. VOXTACT_BENCH_VOLUME names another volume (a file) where voxtact::io is built.
 #include "cpu/raster/reference.h"

@@ -10,7 +10,7 @@
 
 namespace voxtact::test {
 
-/// So many voxels a side of 1 mm each, the first one's centre at the origin.
+/// So many voxels per side of 1 mm each, the first one's centre at the origin.
 inline Grid millimetreGrid(std::uint32_t side) {
     Grid grid;
     grid.size = {side, side, side};

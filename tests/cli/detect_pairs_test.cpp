@@ -87,7 +87,7 @@ TEST_F(DetectPairsTest, WithClampNothingIsLeftOut) {
     // An image that is opaque everywhere: clamped, what lies outside of it counts.
     writeNifti(path("full.nii"), {.value = 100});
     writeText(path("far.txt"), "1 0 0 30 0 1 0 0 0 0 1 0 0 0 0 1\n");
-    // The view looks at all of it: 400 mm a side.
+    // The view looks at all of it: 400 mm per side.
     writeText(path("camera.txt"), "0.005 0 0 0\n0 0.005 0 0\n0 0 -0.002 0.5\n0 0 0 1\n");
     const Arguments arguments{"detect",  "--volume",      path("full.nii"), "--mesh",           "builtin:scalpel:500",
                               "--poses", path("far.txt"), "--camera",       path("camera.txt"), "--count",

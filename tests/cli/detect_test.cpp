@@ -231,7 +231,7 @@ TEST_F(DetectTest, SizeAndCamera) {
     EXPECT_NEAR(static_cast<double>(onlyCount(detect({"--size", "1024x1024"}))), 4.0 * static_cast<double>(standard),
                 0.1 * static_cast<double>(standard));
     EXPECT_GT(onlyCount(detect({"--size", "512x256"})), 0U);
-    // Along world x, 200 mm a side.
+    // Along world x, 200 mm per side.
     writeText(path("camera.txt"), "0 0.01 0 0\n0 0 0.01 0\n-0.002 0 0 0.5\n0 0 0 1\n");
     EXPECT_GT(onlyCount(detect({"--camera", path("camera.txt")})), standard);
     EXPECT_THAT(refused(2, detect({"--size", "99999x99999"})), HasSubstr("--size: 99999x99999"));

@@ -72,7 +72,7 @@ TEST_F(RenderSliceTest, ValuesAreTheVolumes) {
     output({"render", "--volume", path("v.mhd"), "--slice", "axial:0", "--window", "0:100", "--size", "102x102",
             "--output", path("a.png")});
     const PngPicture seen = readPng(path("a.png"));
-    // 0.4 mm a pixel, the middle of the picture at x = 0: the value is 50 + 2 x.
+    // 0.4 mm per pixel, the middle of the picture at x = 0: the value is 50 + 2 x.
     for (const int x : {20, 35, 51, 70, 80}) {
         const double mm = (x + 0.5 - 51) * 0.4 * 1.02 * 100 / 102;
         EXPECT_NEAR(pixel(seen, x, 51)[0], 2.55 * (50 + 2 * mm), 3) << x;

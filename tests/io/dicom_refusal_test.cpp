@@ -192,7 +192,7 @@ TEST_F(DicomRefusal, SliceBesideTheOthers) {
 
 TEST_F(DicomRefusal, PixelsOfOtherKinds) {
     expectRefused(readWith(1, ctSlice(1).text(0x00280004, "CS", "RGB").number(0x00280002, 3)),
-                  "its pixels are colours (PhotometricInterpretation 'RGB', 3 samples a pixel)", slice(1));
+                  "its pixels are colours (PhotometricInterpretation 'RGB', 3 samples per pixel)", slice(1));
     expectRefused(readWith(1, ctSlice(1).text(0x00280004, "CS", "PALETTE COLOR")), "its pixels are colours", slice(1));
     expectRefused(readWith(1, ctSlice(1).sequence(0x00283000, {DicomSet().number(0x00283002, 1)})),
                   "its values are given by a table, ModalityLUTSequence (0028,3000)", slice(1));

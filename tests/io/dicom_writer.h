@@ -29,7 +29,7 @@ class DicomSet {
     DicomSet& text(std::uint32_t tag, const char* type, const std::string& value);
     DicomSet& number(std::uint32_t tag, std::uint16_t value);
     DicomSet& sequence(std::uint32_t tag, std::vector<DicomSet> items);
-    /// 16 bits a word, of the type OW.
+    /// 16 bits per word, of the type OW.
     DicomSet& words(std::uint32_t tag, std::vector<std::uint16_t> values);
     /// Of the type OB.
     DicomSet& bytes(std::uint32_t tag, const std::string& values);
@@ -68,7 +68,7 @@ inline constexpr double kGap = 2.5;
 /// A folder's worth: "s0.dcm", "s1.dcm", ...
 void writeCt(const TemporaryFolder& folder, int slices, const std::string& syntax = kExplicit);
 
-/// Two bytes a pixel: as they are in as few pieces as can be, or in runs.
+/// Two bytes per pixel: as they are in as few pieces as can be, or in runs.
 [[nodiscard]] std::string rleFrame(std::span<const std::uint16_t> cells, bool literal);
 /// JPEG of one component. Lossless: predictor 1 to 7.
 [[nodiscard]] std::string jpegLosslessFrame(std::span<const std::uint16_t> cells, unsigned columns, unsigned bits,

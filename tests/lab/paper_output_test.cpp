@@ -102,8 +102,9 @@ TEST(PaperOutput, SaysWhatDetectionAdds) {
             "wall clock, medians",
             "in 2 of 2 rows the interval (of 95 % or more) of what detection adds leaves out 0, by GPU timestamps",
             "in 2 of 3 rows the interval (of 95 % or more) of what detection adds leaves out 0, by wall clock",
-            "the fastest to count one pair, submitted and waited for alone, is atomic in v1s1: 0.500 ms, 2,000 pairs a "
-            "second; published: 3,800 pairs a second, on other hardware"));
+            "the fastest to count one pair, submitted and waited for alone, is atomic in v1s1: 0.500 ms, 2,000 pairs "
+            "per "
+            "second; published: 3,800 pairs per second, on other hardware"));
 }
 
 TEST(PaperOutput, SaysTheRestWhereItIsThere) {
@@ -112,9 +113,9 @@ TEST(PaperOutput, SaysTheRestWhereItIsThere) {
     const auto summary = lab::paperSummary(result);
     EXPECT_THAT(
         std::vector(summary.begin() + 9, summary.end()),
-        ElementsAre("the fastest in batches is atomic with 1,024 pairs a submission (pipelined): 3,413 pairs a "
-                    "second; published: 3,800 pairs a second, on other hardware",
-                    "which of 3,068 triangles touch on 4 poses, by the way polygon: 41.0 ms a pair by wall clock, "
+        ElementsAre("the fastest in batches is atomic with 1,024 pairs per submission (pipelined): 3,413 pairs per "
+                    "second; published: 3,800 pairs per second, on other hardware",
+                    "which of 3,068 triangles touch on 4 poses, by the way polygon: 41.0 ms per pair by wall clock, "
                     "24,544 queries in all; 70 found in all, 30 of those that certainly touch are missed",
                     "the pre-integrated table of 256x256 entries is made in 3.00 ms by GPU timestamps, 5.00 ms "
                     "by wall clock; published: 40 ms, on other hardware"));

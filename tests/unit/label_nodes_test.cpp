@@ -14,7 +14,7 @@
 namespace voxtact::test {
 namespace {
 
-/// Of a node of so many cells a side, from a padded cell on: the numbers of the voxels that are corners of these.
+/// Of a node of so many cells per side, from a padded cell on: the numbers of the voxels that are corners of these.
 std::set<std::uint32_t> numbersOf(const LabelData& labels, const std::array<int, 3>& first, int side) {
     std::set<std::uint32_t> found;
     const auto size = [&](std::size_t axis) { return static_cast<int>(labels.grid.size[axis]); };

@@ -102,7 +102,7 @@ def coarser(program, folder):
         state = window.until("the coarser copy", lambda s: s["settled"])
         assert state["coarser"] == 2 and state["hit"] == 1 and state["count"] > 0, state
         assert "coarser by 2" in state["command"].splitlines()[0], state
-        # The same answer as of a file that holds the copy: 16 voxels a side of twice the spacing.
+        # The same answer as of a file that holds the copy: 16 voxels per side of twice the spacing.
         large = make(program, folder, "volume", "builtin:head:96", "large.nii")
         window.open(large)
         state = window.until("the next question", lambda s: s["question"])

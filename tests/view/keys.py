@@ -9,7 +9,7 @@
   keys.py PROGRAM labels    what is touched by its labels, on the host and on the device
   keys.py PROGRAM drill     holes at the tip, on the host and on the device, and undo
   keys.py PROGRAM screenshot   pictures of any size
-  keys.py PROGRAM least     the window's least size, on displays of one and two pixels a point
+  keys.py PROGRAM least     the window's least size, on displays of one and two pixels per point
 
 Exit status: 0 passed, 1 failed.
 """

@@ -210,7 +210,7 @@ def turning(program, folder, seconds=3):
         state = window.until("a picture of that size", lambda s: s["picture"][2:] == [512, 512] and s["settled"])
         x, y, width, height = state["picture"]
         window.tool("mousemove", str(round(x + 60)), str(round(y + height - 60)), "mousedown", "1")
-        # Sixty steps a second, to and fro.
+        # Sixty steps per second, to and fro.
         steps = [("mousemove_relative", "--", "4" if i // 80 % 2 == 0 else "-4", "0", "sleep", "0.0167")
                  for i in range(round(seconds * 60))]
         load = os.getloadavg()[0]

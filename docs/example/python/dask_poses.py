@@ -46,7 +46,7 @@ def poses_of(first, number):
 
 
 def answer(first, number):
-    """One byte a pose: 1, it touches; 2, rounding leaves it open; 0."""
+    """One byte per pose: 1, it touches; 2, rounding leaves it open; 0."""
     scene, mesh = scene_and_mesh()
     found = scene.detect(mesh, poses_of(first, number), yes_no=True)
     return np.where(found.possible, 2, found.hit).astype(np.uint8)

@@ -63,7 +63,7 @@ takes 7 poses and, as far as they fit in --time-limit, 7 repetitions unless told
 Columns of CSV: mesh,triangles,poses,engine,projection,question,threads,pairs,contacts,missed_percent,false_percent,
 samples,pairs_per_s,pairs_per_s_min,pairs_per_s_max,pairs_per_cpu_s,pairs_per_cpu_s_min,pairs_per_cpu_s_max,wall_ratio,
 wall_ratio_min,wall_ratio_max,cpu_ratio,cpu_ratio_min,cpu_ratio_max,no_contacts,possible; medians, and of the ratios of
-pairs a second to the first engine of the same scene in the same round (--outputs: projections to the view by the same
+pairs per second to the first engine of the same scene in the same round (--outputs: projections to the view by the same
 method, outputs to the bare count). With --latency:
 mesh,triangles,engine,projection,question,threads,recorded,awaited,ticks,touching (ticks that do),rounding (ticks that
 the device's rasteriser counts otherwise than cpu),p50_us,p99_us (from 100 ticks on),p99_9_us (from 1000

@@ -17,7 +17,7 @@ namespace voxtact::app {
 namespace {
 
 constexpr const char* kDetectFooter =
-    R"(--volume and --mesh may be given several times. One row a pair: every pose of every mesh against every volume. Columns:
+    R"(--volume and --mesh may be given several times. One row per pair: every pose of every mesh against every volume. Columns:
   pose,mesh,volume             number of the pose in its file from 0; the sources as they were given
   hit,count                    1 (yes) when at least one fragment survives; how many do; 2 (possible), with
                                conservative: nothing certain, but fragments that could not be decided
@@ -285,7 +285,7 @@ Command addDetect(CLI::App& program) {
     parser->get_option("--volume")->required(false);
     addMeshOptions(*parser, options->meshes, false);
     addPath(*parser, "--jobs", options->jobsPath,
-            "a CSV file of mesh,volume,poses, a job a line, instead of --mesh, --volume and --poses");
+            "a CSV file of mesh,volume,poses, one job per line, instead of --mesh, --volume and --poses");
     addTransferFunctionOptions(*parser, options->transferFunction);
     addViewOptions(*parser, options->view);
     addMethodOptions(*parser, options->method);
@@ -296,7 +296,7 @@ Command addDetect(CLI::App& program) {
             "default: count");
     addWholeNumber(
         *parser, "--batch", [options](std::uint32_t pairs) { options->batch = pairs; }, {.least = 1},
-        "pairs a submission, at most; few at first unless this is given, so that rows come soon", kDefaultBatch);
+        "pairs per submission, at most; few at first unless this is given, so that rows come soon", kDefaultBatch);
     addWholeNumber(
         *parser, "--threads", [options](std::uint32_t threads) { options->threads = threads; },
         {.least = 0, .most = kMostThreads}, "of the counting method cpu; 0: one for each processor", 0);

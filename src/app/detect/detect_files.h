@@ -36,7 +36,7 @@ struct KeptClosest {
 [[nodiscard]] bool isClosestEnding(const std::filesystem::path& path);
 /// By the ending of --closest. CSV: pose,mesh,volume,triangle,mesh_x,...,volume_z,label, then how the clearance changes
 /// with the pose, per_x,...,per_rz; with names of labels also label_name, and with --jobs also job. PLY, ASCII: two
-/// vertices a pair, on the mesh and in the volume, and an edge between them. World, mm.
+/// vertices per pair, on the mesh and in the volume, and an edge between them. World, mm.
 void writeClosest(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs,
                   std::span<const KeptClosest> kept);
 

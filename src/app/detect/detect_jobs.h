@@ -33,8 +33,8 @@ struct PairJobs {
 /// Every mesh against every volume, at the poses of one file: by volume, then by mesh.
 [[nodiscard]] PairJobs allPairs(const std::vector<std::string>& meshes, const std::vector<std::string>& volumes,
                                 const std::filesystem::path& poses);
-/// A CSV file with a job a line, `mesh,volume,poses`, the last may be left out; a first line with these names, empty
-/// lines and lines that begin with `#` are skipped. Paths are as on the command line.
+/// A CSV file with one job per line, `mesh,volume,poses`, the last may be left out; a first line with these names,
+/// empty lines and lines that begin with `#` are skipped. Paths are as on the command line.
 [[nodiscard]] Result<PairJobs> readJobs(const std::filesystem::path& path);
 
 } // namespace voxtact::app

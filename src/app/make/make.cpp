@@ -163,7 +163,7 @@ Outcome makePoses(const MakePosesOptions& options) {
     const auto write = [&](std::ostream& out) -> Result<void> {
         out << "# voxtact make poses: " << options.number << " poses, seed " << options.seed << ", mesh "
             << oneLine(options.meshes.sources.front()) << ", volume " << oneLine(options.volumes.front()) << '\n'
-            << "# world_from_object, 16 numbers a line, row by row\n";
+            << "# world_from_object, 16 numbers per line, row by row\n";
         for (const Mat4& pose : poses) {
             if (interrupted()) {
                 return Error{ErrorCode::Cancelled, 0, "interrupted"};
@@ -208,7 +208,7 @@ std::vector<Command> addMake(CLI::App& program) {
                     "builtin:scalpel[:TRIANGLES], builtin:ellipsoid[:TRIANGLES] or builtin:needle[:DIAMETER:LENGTH]",
                     kMeshFooter, makeMesh),
         addMakeFile(*make, "volume", "writes a builtin volume",
-                    "builtin:NAME[:SIZE] with head, sphere, noise, ct, shells or vessels, SIZE voxels a side",
+                    "builtin:NAME[:SIZE] with head, sphere, noise, ct, shells or vessels, SIZE voxels per side",
                     kVolumeFooter, makeVolume),
         addMakePoses(*make),
     };

@@ -389,7 +389,7 @@ void addProgressOption(CLI::App& parser, bool& shown) {
             requireName("--progress", name, {"auto", "never"});
             shown = name == "auto";
         },
-        "auto (standard error: a bar on a terminal, else a line a minute) or never", "WHEN", "auto");
+        "auto (standard error: a bar on a terminal, else a line per minute) or never", "WHEN", "auto");
 }
 
 } // namespace voxtact::app

@@ -8,7 +8,7 @@
 namespace voxtact::app {
 
 /// How far long work is, and about how long the rest will take, on standard error: on a terminal a bar, from half a
-/// second on, that is wiped when it goes; elsewhere a line a minute.
+/// second on, that is wiped when it goes; elsewhere a line per minute.
 class Progress {
   public:
     /// `wanted` false: does nothing. `total` 0: not known.

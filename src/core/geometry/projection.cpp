@@ -40,7 +40,7 @@ shader::DominantGrid dominantGrid(const Grid& grid) noexcept {
 
 std::string dominantNeeds(const Grid& grid, std::uint32_t samplesPerVoxel) {
     const std::string side = std::to_string(dominantSide(grid, samplesPerVoxel));
-    return "dominant-axis with " + std::to_string(samplesPerVoxel) + " samples a voxel needs a viewport of " + side +
+    return "dominant-axis with " + std::to_string(samplesPerVoxel) + " samples per voxel needs a viewport of " + side +
            "x" + side;
 }
 

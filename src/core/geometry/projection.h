@@ -31,10 +31,10 @@ class Cameras {
 /// Pixels along the side of the square viewport of the projection `dominant-axis`.
 [[nodiscard]] std::uint64_t dominantSide(const Grid& grid, std::uint32_t samplesPerVoxel) noexcept;
 [[nodiscard]] shader::DominantGrid dominantGrid(const Grid& grid) noexcept;
-/// "dominant-axis with 4 samples a voxel needs a viewport of 1024x1024"
+/// "dominant-axis with 4 samples per voxel needs a viewport of 1024x1024"
 [[nodiscard]] std::string dominantNeeds(const Grid& grid, std::uint32_t samplesPerVoxel);
 
-/// Refuses samples a voxel outside of 1 to kMostSamplesPerVoxel.
+/// Refuses samples per voxel outside of 1 to kMostSamplesPerVoxel.
 [[nodiscard]] Result<void> checkSamples(std::uint32_t samplesPerVoxel);
 
 } // namespace voxtact

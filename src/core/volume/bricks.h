@@ -8,7 +8,7 @@
 
 /// The bricks of an image, one definition for host and device. Along an axis of n voxels, cell i, from -1 to n-1, lies
 /// between the centres of voxels i and i+1, clamped to the image; its padded number is i+1, from 0 to n. A brick is
-/// 2^kBrickShift cells a side, beginning at padded cell 0.
+/// 2^kBrickShift cells per side, beginning at padded cell 0.
 namespace voxtact {
 
 inline constexpr int kBrickShift = VOXTACT_BRICK_SHIFT;

@@ -57,7 +57,7 @@ class FineRun {
     void answer() noexcept;
     [[nodiscard]] const Overlap& overlap(std::size_t i) const noexcept { return overlaps_[i]; }
 
-    /// A lane a triangle.
+    /// A lane per triangle.
     struct Triangles {
         template <class Number> using Each = std::array<Number, kMost>;
 
@@ -74,7 +74,7 @@ class FineRun {
         std::array<Each<std::uint32_t>, 3> corner{};
         Each<float> delta{};
     };
-    /// A lane a cell of a triangle.
+    /// A lane per cell of a triangle.
     struct Cells {
         template <class Number> using Each = std::array<Number, kMost * CellBlock::kMost>;
 

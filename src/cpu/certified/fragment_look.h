@@ -37,7 +37,7 @@ class FragmentLook {
     /// certifiedSettle() finds it certain.
     [[nodiscard]] bool isCertain(std::size_t i) const noexcept { return lanes_.certain[i] != 0; }
 
-    /// A lane a fragment.
+    /// A lane per fragment.
     struct Lanes {
         template <class Number> using Each = std::array<Number, kMost>;
 

@@ -22,7 +22,7 @@ struct SearchPair {
     std::array<std::uint16_t, 3> piece{}; ///< times 2^-depth
     std::int8_t meshLevel = kTriangles;   ///< of the mesh's tree
     std::uint8_t nearest = 0;             ///< of the triangles
-    std::uint8_t shift = 0;               ///< the box is 2^shift cells a side
+    std::uint8_t shift = 0;               ///< the box is 2^shift cells per side
     std::uint8_t depth = 0;               ///< the piece is 2^-depth of its cell a side
     bool sifted = false;                  ///< each of the triangles was looked at against this box
 

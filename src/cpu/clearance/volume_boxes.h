@@ -11,7 +11,7 @@
 
 namespace voxtact::cpu {
 
-/// 2^shift padded cells a side.
+/// 2^shift padded cells per side.
 struct CellCube {
     NodePlace node{}; ///< times 2^shift cells: its first padded cell
     std::uint8_t shift = 0;

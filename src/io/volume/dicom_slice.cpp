@@ -138,7 +138,7 @@ Result<void> checkMeaning(const DicomFile& file) {
     if ((!samples.empty() && samples != "1") || !photometric.starts_with("MONOCHROME")) {
         return cannotRead(file.path, "its pixels are colours (PhotometricInterpretation '" + printable(photometric) +
                                          "', " + (samples.empty() ? "no" : printable(samples)) +
-                                         " samples a pixel); a grey image is needed");
+                                         " samples per pixel); a grey image is needed");
     }
     if (file.set.items(dicom::kModalityTable) != nullptr) {
         return cannotRead(file.path, "its values are given by a table, ModalityLUTSequence " +

@@ -51,8 +51,8 @@ struct BenchRow {
     std::vector<double> wall{};      ///< ms of a tick, from the pose to the answer; of a batch
     std::vector<double> gpu{};       ///< the device's part of a batch; empty where there is none
     std::vector<double> recording{}; ///< of a tick; empty where nothing is recorded
-    std::vector<double> wallRate{};  ///< pairs a second
-    std::vector<double> cpuRate{};   ///< pairs a second of CPU time of the whole process
+    std::vector<double> wallRate{};  ///< pairs per second
+    std::vector<double> cpuRate{};   ///< pairs per second of CPU time of the whole process
     std::vector<double> wallRatio{}; ///< to the sample, of the same round, of the engine that this is held against
     std::vector<double> cpuRatio{};
 };

@@ -14,7 +14,7 @@
 /// Who must agree with whom, judged from numbers alone: no device, no files.
 namespace voxtact::lab {
 
-/// What one method counted, a number a pose.
+/// What one method counted, a number per pose.
 struct NamedCounts {
     std::string method;
     std::vector<std::uint64_t> counts{};

@@ -126,7 +126,7 @@ struct SampleSize {
 /// point first, and time nothing where they are wrong and the run is not to go on:
 ///   triangles  builtin meshes of several sizes; another mesh is told in the notes
 ///   fragments  viewports of several sizes
-///   voxels     a builtin volume of half to twice as many voxels a side; another volume is told in the notes, and so
+///   voxels     a builtin volume of half to twice as many voxels per side; another volume is told in the notes, and so
 ///              are sizes that the device or the builtin cannot have. Mesh, poses, camera and transfer function stay.
 [[nodiscard]] Result<void> timeSweep(const CompareRun& run, Sweep sweep);
 /// Steps of a sweep.

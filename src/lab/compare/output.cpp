@@ -103,7 +103,7 @@ std::string sentenceOf(const Verdict& verdict) {
 
 std::string speedOf(const Series& series, const std::string& what) {
     return "fastest " + what + ": " + series.method + " (" + milliseconds(medianOf(series.wall)) + ", " +
-           grouped(static_cast<std::uint64_t>(std::llround(*series.pairsPerSecond()))) + " pairs a second)";
+           grouped(static_cast<std::uint64_t>(std::llround(*series.pairsPerSecond()))) + " pairs per second)";
 }
 
 /// What was found, in plain English, a sentence each: the agreement, then the speed.

@@ -18,7 +18,7 @@ constexpr std::uint32_t kSweepPairs = 8;
 constexpr double kGoldenRatio = 0.6180339887498949;
 constexpr std::array<std::uint32_t, 6> kTriangles{256, 1024, 4096, 16384, 65536, 200000};
 constexpr std::array<std::uint32_t, 6> kSides{64, 128, 256, 512, 1024, 2048};
-/// Voxels a side of the volume, in quarters of the given one's.
+/// Voxels per side of the volume, in quarters of the given one's.
 constexpr std::array<std::uint32_t, 5> kQuarters{2, 3, 4, 6, 8};
 constexpr std::uint32_t kFramesInFlight = 3;
 constexpr std::size_t kWarmUpPairs = 16;

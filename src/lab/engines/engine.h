@@ -43,7 +43,7 @@ struct Work {
 
 /// How the pairs of a work reach an engine.
 struct Feeding {
-    std::uint32_t batch = 0;  ///< pairs a submission or call; 0: all
+    std::uint32_t batch = 0;  ///< pairs per submission or call; 0: all
     std::uint32_t frames = 1; ///< submissions in flight; 1: each is waited for
 };
 

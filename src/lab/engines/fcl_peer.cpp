@@ -113,7 +113,7 @@ std::shared_ptr<const FclVolume> makeFclVolume(const FclCells& cells, std::strin
     std::array<std::uint32_t, 3> first{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (cells.size[axis] > kKeys) {
-            why = "the octree would have more than 65536 cells a side";
+            why = "the octree would have more than 65536 cells per side";
             return nullptr;
         }
         first[axis] = kOriginKey - cells.size[axis] / 2;

@@ -34,7 +34,7 @@ enum class FclOnTheWay {
     Advance, ///< conservative advancement; -1 where it is not offered
 };
 
-/// Three numbers a vertex, three vertices a triangle. What is made of one needs it no longer.
+/// Three numbers per vertex, three vertices per triangle. What is made of one needs it no longer.
 struct FclMesh {
     std::span<const float> positions;
     std::span<const std::uint32_t> indices;
@@ -54,8 +54,8 @@ struct FclVolume {
     std::function<FclDistance(const FclMesh& mesh)> distance;
     std::function<FclMotion(const FclMesh& mesh)> motion;
 };
-/// Null, with the reason in `why`, where FCL is not built in, and beyond the 65,536 cells a side that OctoMap has keys
-/// for.
+/// Null, with the reason in `why`, where FCL is not built in, and beyond the 65,536 cells per side that OctoMap has
+/// keys for.
 [[nodiscard]] std::shared_ptr<const FclVolume> makeFclVolume(const FclCells& cells, std::string& why);
 
 } // namespace voxtact::lab

@@ -28,7 +28,7 @@ struct LocalizeAids {
     std::function<bool(const Box& texture)> mayBeOpaque;
 };
 
-/// Finds the triangles of a pair that have survivors by the projection `view`, one query a triangle. What the finer
+/// Finds the triangles of a pair that have survivors by the projection `view`, one query per triangle. What the finer
 /// ways to localise are compared with. Blocks. Needs occlusionQueryPrecise.
 ///
 /// The trees are asked in double about what the device does in float: the volume's box, and those of the nodes, are

@@ -74,8 +74,9 @@ Machine describeMachine(const device::Session& session, ScalarType type, const P
     if (llvmpipe) {
         machine.notes.emplace_back("llvmpipe is a rasteriser on the CPU: the methods of the device and cpu share the "
                                    "same cores");
-        machine.notes.emplace_back("a query counts one draw, so query and query-any split a batch into a draw a pair; "
-                                   "atomic and subgroup draw a batch at once");
+        machine.notes.emplace_back(
+            "a query counts one draw, so query and query-any split a batch into one draw per pair; "
+            "atomic and subgroup draw a batch at once");
     }
     if (isHopper(physical)) {
         machine.notes.emplace_back("on this card only two TPCs (4 of 132 multiprocessors) run vertex and fragment "

@@ -167,7 +167,7 @@ void addPaperTables(const PaperResult& result, std::vector<Section>& sections) {
 
 /// The paper's own, as it prints them, and what else was measured.
 void addOthers(const PaperResult& result, std::vector<Section>& sections) {
-    std::string title = "The paper's own tables, average ms a frame as printed";
+    std::string title = "The paper's own tables, average ms per frame as printed";
     for (std::size_t i = 0; i < published::kHardware.size(); ++i) {
         title += concat("; Table ", i + 1, ": ", published::kHardware.at(i));
     }

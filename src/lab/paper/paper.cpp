@@ -49,7 +49,7 @@ std::vector<double> percents(const std::vector<double>& rendering, const std::ve
     return out;
 }
 
-/// Of the sweep of voxels, and its voxels a side: half to twice as many are 128 to 512.
+/// Of the sweep of voxels, and its voxels per side: half to twice as many are 128 to 512.
 constexpr const char* kVolume = "builtin:head";
 constexpr std::uint32_t kVoxels = 256;
 constexpr std::array<ControlPoint, 2> kOpacity{{{40, 0}, {80, 1}}};

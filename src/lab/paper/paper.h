@@ -14,7 +14,7 @@ namespace voxtact::lab {
 /// What the paper publishes of its own measurements, on its own hardware (OpenGL). It does not say with which viewport,
 /// ray step or number of samples.
 namespace published {
-/// A line of Table 1 or 2: average ms a frame.
+/// A line of Table 1 or 2: average ms per frame.
 struct TableLine {
     int table = 0; ///< 1 or 2, see kHardware
     const char* scene = nullptr;

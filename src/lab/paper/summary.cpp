@@ -128,7 +128,7 @@ void addIntervals(const PaperResult& result, std::vector<std::string>& sentences
 }
 
 std::string pairsPerSecond(double milliseconds) {
-    return grouped(static_cast<std::uint64_t>(std::llround(1000 / milliseconds))) + " pairs a second";
+    return grouped(static_cast<std::uint64_t>(std::llround(1000 / milliseconds))) + " pairs per second";
 }
 
 void addPairs(const PaperResult& result, std::vector<std::string>& sentences) {
@@ -137,7 +137,7 @@ void addPairs(const PaperResult& result, std::vector<std::string>& sentences) {
         return counts ? row.wall.collision : std::vector<double>();
     });
     const std::string there = "; published: " + grouped(static_cast<std::uint64_t>(published::kPairsPerSecond)) +
-                              " pairs a second" + kElsewhere;
+                              " pairs per second" + kElsewhere;
     if (found && found->first.median > 0) {
         sentences.push_back(concat("the fastest to count one pair, submitted and waited for alone, is ",
                                    nameOf(*found->first.row, result), ": ", shortNumber(found->first.median), " ms, ",
@@ -146,7 +146,7 @@ void addPairs(const PaperResult& result, std::vector<std::string>& sentences) {
     const Series* const best = fastestOf(result.series, [](const Series&) { return true; });
     if (best != nullptr) {
         sentences.push_back(concat("the fastest in batches is ", best->method, " with ", grouped(best->batch),
-                                   " pairs a submission (", toString(best->mode),
+                                   " pairs per submission (", toString(best->mode),
                                    "): ", pairsPerSecond(1000 / *best->pairsPerSecond()), there));
     }
 }
@@ -158,7 +158,7 @@ void addPolygons(const PaperResult& result, std::vector<std::string>& sentences)
         }
         sentences.push_back(
             concat("which of ", grouped(result.polygonTriangles), " triangles touch on ", result.polygonPoses,
-                   " poses, by the way ", way.name, ": ", shortNumber(medianOf(way.wall)), " ms a pair by wall clock",
+                   " poses, by the way ", way.name, ": ", shortNumber(medianOf(way.wall)), " ms per pair by wall clock",
                    way.queries ? ", " + grouped(*way.queries) + " queries in all" : "", "; ", grouped(way.triangles),
                    " found in all, ", grouped(way.missed), " of those that certainly touch are missed"));
     }

@@ -335,7 +335,7 @@ const report = (() => {
     if (series.length === 0) return;
     parent.appendChild(element('h2', heading));
     const xTicks = onTicks ? ticksOf(series.map(xOf)) : undefined;
-    drawChart(parent, { title: `${series[0].batch} pairs a submission`, text, xTitle, yTitle: 'wall time of a pair, ms', xTicks,
+    drawChart(parent, { title: `${series[0].batch} pairs per submission`, text, xTitle, yTitle: 'wall time of a pair, ms', xTicks,
       sets: timesOf(series, xOf, (s) => s.batch) });
   }
 

@@ -74,7 +74,7 @@
   }
 
   function fillPublished() {
-    byId('published-text').textContent = 'Average ms a frame, as printed. ' +
+    byId('published-text').textContent = 'Average ms per frame, as printed. ' +
       data.published.hardware.map((name, i) => `Table ${i + 1}: ${name}.`).join(' ');
     const columns = [...words('Table', 'Scene'), ...numbers('Mesh', 'Volume', 'Collision', 'Total rendering', 'Total', 'Overhead %')];
     fillTable(byId('published'), columns, data.published.tables.map((row) => [
@@ -111,7 +111,7 @@
     parent.appendChild(element('h2', 'Frames and what detection adds'));
     const pair = addPair(parent);
     drawFrames(pair, clock);
-    drawSpreads(pair, clock, 'collision_ms', ['p10', 'p90'], { title: 'Collision', logarithmic: true, yTitle: 'ms a pair, median',
+    drawSpreads(pair, clock, 'collision_ms', ['p10', 'p90'], { title: 'Collision', logarithmic: true, yTitle: 'ms per pair, median',
       text: `The detection of one pair by each method, ${clock.name}; the whiskers are the 10th and 90th percentile.` });
     const whiskers = `Medians, ${clock.name}; the whiskers are the confidence interval.`;
     const band = { low: least, high: most, text: `the paper's overhead: ${least} to ${most} %` };

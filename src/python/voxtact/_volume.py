@@ -258,7 +258,7 @@ def _of_nibabel(image: Any, frame: Optional[int]) -> Volume:
 def _of_itk(image: Any) -> Volume:
     """SimpleITK's images, and itk's."""
     if hasattr(image, "GetNumberOfComponentsPerPixel") and image.GetNumberOfComponentsPerPixel() != 1:
-        raise InvalidArgumentError("the image has several numbers a voxel; one is needed")
+        raise InvalidArgumentError("the image has several numbers per voxel; one is needed")
     spacing = np.array([float(step) for step in image.GetSpacing()])
     origin = np.array([float(at) for at in image.GetOrigin()])
     if len(spacing) != 3:
@@ -288,7 +288,7 @@ def _of_vtk_image(image: Any, space: Space) -> Volume:
     if scalars is None:
         raise InvalidArgumentError("the vtkImageData has no scalars")
     if scalars.GetNumberOfComponents() != 1:
-        raise InvalidArgumentError("the vtkImageData has several numbers a voxel; one is needed")
+        raise InvalidArgumentError("the vtkImageData has several numbers per voxel; one is needed")
     x, y, z = image.GetDimensions()
     first = np.array(image.GetExtent()[::2], dtype=np.float64)
     directions = image.GetDirectionMatrix()

@@ -7,7 +7,7 @@
 namespace voxtact::view {
 
 /// The large picture: coarse at once, as large as a frame has time for, and fine when nothing changes any more, some
-/// rows a frame. Its images are in the layout GENERAL.
+/// rows per frame. Its images are in the layout GENERAL.
 class Pictures {
   public:
     [[nodiscard]] static Result<Pictures> create(const device::Session& session, const Renderer& renderer,

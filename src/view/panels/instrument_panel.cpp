@@ -114,9 +114,9 @@ void drawSteps(State& state) {
     if (typeNumber("mm", state.stepMillimetres, "%.3g")) {
         state.stepMillimetres = std::clamp(state.stepMillimetres, kLeast, kMost);
     }
-    sameLine(width + ImGui::GetStyle().ItemInnerSpacing.x + ImGui::CalcTextSize("degrees a step").x);
+    sameLine(width + ImGui::GetStyle().ItemInnerSpacing.x + ImGui::CalcTextSize("degrees per step").x);
     ImGui::SetNextItemWidth(width);
-    if (typeNumber("degrees a step", state.stepDegrees, "%.3g")) {
+    if (typeNumber("degrees per step", state.stepDegrees, "%.3g")) {
         state.stepDegrees = std::clamp(state.stepDegrees, kLeast, 180.0);
     }
 }

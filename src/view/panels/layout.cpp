@@ -163,7 +163,7 @@ void drawColumn(State& state) {
 void drawStatus(const State& state) {
     char frames[64];
     const char* fine = state.fineShare >= 1 ? "fine" : "coarse";
-    std::snprintf(frames, sizeof frames, "%s   %.0f ms a frame", fine, state.frameTimes.percentile(0.5));
+    std::snprintf(frames, sizeof frames, "%s   %.0f ms per frame", fine, state.frameTimes.percentile(0.5));
     const std::string device = frames + ("   " + state.deviceName);
     const std::string text = shortened(device, ImGui::GetWindowWidth() / 2);
     const float right = ImGui::GetWindowWidth() - ImGui::CalcTextSize(text.c_str()).x - scaled(12);

@@ -196,7 +196,7 @@ TEST(CertifiedOracleRandom, NoSampleContradicts) {
         ASSERT_FALSE(HasFailure());
     }
     tally.print();
-    std::cout << kCases / spent.count() << " pairs a second\n";
+    std::cout << kCases / spent.count() << " pairs per second\n";
     EXPECT_GT(tally.pairs[Certainty::Certain], kCases / 5);
     EXPECT_GT(tally.pairs[Certainty::None], kCases / 5);
     EXPECT_LT(tally.pairs[Certainty::Undecided], kCases / 20);

@@ -128,7 +128,7 @@ TEST(CertifiedOracle, CellsAtTheDomainsBoundary) {
     scene.volume = makeUnitImage(2, [](auto, auto, auto) { return 255; });
     addTriangle(scene.mesh, {-1, -1, 0.3}, {3, -1, 0.3}, {-1, 3, 0.3});
     std::vector<JudgedCell> cells = take(certifiedCells(scene.pair(), 0));
-    ASSERT_EQ(cells.size(), 9U); // three cells an axis, of half a voxel, one and half a voxel
+    ASSERT_EQ(cells.size(), 9U); // three cells per axis, of half a voxel, one and half a voxel
     EXPECT_EQ(cells.front().cell, (std::array<std::int64_t, 3>{-1, -1, 0}));
     EXPECT_EQ(cells.back().cell, (std::array<std::int64_t, 3>{1, 1, 0}));
     // Within the margin of the cells above, and in the corner of the domain only up to rounding.

@@ -246,7 +246,7 @@ TEST(CpuOutputs, NormalsAndDepthsOfKnownSolids) {
     }
 }
 
-/// A flat mesh at z in a unit cube of 32 voxels a side, whose voxels hold 255 * value(texture coordinate).
+/// A flat mesh at z in a unit cube of 32 voxels per side, whose voxels hold 255 * value(texture coordinate).
 ContactScene inUnitCube(double z, const std::function<double(double, double, double)>& value) {
     ContactScene scene;
     scene.volume = makeVolume<float>(unitGrid(32), ScalarType::Float32, [&](auto x, auto y, auto w) {

@@ -270,7 +270,7 @@ TEST(Projections, BadOnesAreRefused) {
     const Result<BatchAnswer> answer = detector.detect({std::span(&item, 1), {}, 0.5});
     ASSERT_FALSE(answer.ok());
     EXPECT_EQ(answer.error().code, ErrorCode::LimitExceeded);
-    EXPECT_THAT(answer.error().text, HasSubstr("16 samples a voxel needs a viewport of 16400x16400"));
+    EXPECT_THAT(answer.error().text, HasSubstr("16 samples per voxel needs a viewport of 16400x16400"));
     // The camera is looked at where there is one.
     cpu::Detector both = take(cpu::Detector::create({.projection = Projection::TwoView}));
     EXPECT_THAT(both.detect({std::span(&item, 1), {}, 0.5}).error().text, HasSubstr("singular"));

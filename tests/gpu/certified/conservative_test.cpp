@@ -309,7 +309,7 @@ TEST_F(ConservativeTest, WhatIsOpenIsDecidedAgainAsOnTheHost) {
     }
 }
 
-/// Some 100,000 cells a triangle: more loops than llvmpipe runs in one invocation (docs/facts.md).
+/// Some 100,000 cells per triangle: more loops than llvmpipe runs in one invocation (docs/facts.md).
 TEST_F(ConservativeTest, APlateThroughALargeVolumeIsTheHosts) {
     const VolumeData sphere = take(makeBuiltinVolume("sphere:256"));
     MeshData plate;

@@ -80,7 +80,7 @@ ValueRange wideRange(const cpu::StoredImage& image, std::int32_t brickX, std::in
     return range;
 }
 
-/// What a node that is `side` bricks a side says: the ranges of all bricks in it.
+/// What a node that is `side` bricks per side says: the ranges of all bricks in it.
 shader::vec4 unionOf(const std::vector<shader::vec4>& bricks, const std::array<std::int32_t, 3>& count,
                      const std::array<std::int32_t, 3>& node, std::int32_t side) {
     shader::vec4 found{HUGE_VALF, -HUGE_VALF, HUGE_VALF, -HUGE_VALF};

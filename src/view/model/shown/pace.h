@@ -25,7 +25,7 @@ class Pace {
 
   private:
     double budget_;
-    // Milliseconds a pixel: guesses for a slow machine, until something was measured.
+    // Milliseconds per pixel: guesses for a slow machine, until something was measured.
     double coarseCost_ = 1e-3;
     double fineCost_ = 2e-3;
 };
