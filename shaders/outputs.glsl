@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a survivor gives beside its count: emitSurvivor() is all that a pass calls. Expects `volume`,
+// What a survivor gives in addition to its count: emitSurvivor() is all that a pass calls. Expects `volume`,
 // `transferFunction` and survives.glsl.
 #ifndef VOXTACT_OUTPUTS_GLSL
 #define VOXTACT_OUTPUTS_GLSL

@@ -340,17 +340,17 @@ struct CertifiedConstants {
 #define VOXTACT_SET_TRANSFER_FUNCTION 1
 #define VOXTACT_SET_PAIRS 2
 #define VOXTACT_SET_MESH 3
-#define VOXTACT_SET_LABELS 4 // with outputs beside the counts, and for clearances to labels
+#define VOXTACT_SET_LABELS 4 // with outputs in addition to the counts, and for clearances to labels
 // Bindings of VOXTACT_SET_LABELS for clearances to labels, beside the image at 0: core/volume/label_nodes.h.
 #define VOXTACT_BINDING_LABEL_NODES 1
 // Bindings of VOXTACT_SET_VOLUME, beside the image at 0.
 #define VOXTACT_BINDING_BRICKS 1
-// Bindings of VOXTACT_SET_TRANSFER_FUNCTION, beside the table at 0: src/core/transfer/table_extremes.h.
+// Bindings of VOXTACT_SET_TRANSFER_FUNCTION, in addition to the table at 0: src/core/transfer/table_extremes.h.
 #define VOXTACT_BINDING_EXTREMES 1
 // Bindings of VOXTACT_SET_PAIRS.
 #define VOXTACT_BINDING_TRANSFORMS 0
 #define VOXTACT_BINDING_RESULTS 1
-#define VOXTACT_BINDING_OUTPUT_PAIRS 2 // with outputs beside the counts
+#define VOXTACT_BINDING_OUTPUT_PAIRS 2 // with outputs in addition to the counts
 #define VOXTACT_BINDING_OUTPUTS 3
 // Bindings of VOXTACT_SET_MESH.
 #define VOXTACT_BINDING_VERTICES 0

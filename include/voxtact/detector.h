@@ -23,7 +23,7 @@ struct DetectorDesc {
     Projection projection = Projection::View;      ///< how meshes become fragments
     Filter filter = Filter::Hardware;              ///< how the image is sampled; Conservative never looks at it
     Boundary boundary = Boundary::Auto;            ///< the projection conservative always tests the range
-    Outputs outputs{};                             ///< beside the counts; the Results need room for them
+    Outputs outputs{};                             ///< in addition to the counts; the Results need room for them
     std::uint32_t samplesPerVoxel = kDefaultSamplesPerVoxel; ///< dominant-axis: along a voxel's side; 1 to 16
     double resolution = kDefaultResolution;                  ///< conservative, voxels; 2^-12 to 1
     bool stopAtFirst = false; ///< conservative without outputs: the count is then 0 or 1, its exactness LowerBound
@@ -35,9 +35,9 @@ struct DetectorDesc {
     /// InvalidArgument for other projections and for the method compute.
     bool overestimate = false;
     /// Batches may have BatchItem::poses. The pass that makes pairs of them is then made, too, and the queue needs
-    /// compute beside graphics. Poses that the host has become pairs by it as well in Results that are staged, where a
-    /// batch has 256 pairs or more and the device has doubles (shaderFloat64, which must round as the host's); the
-    /// pairs are the same, bit for bit.
+    /// compute in addition to graphics. Poses that the host has become pairs by it as well in Results that are staged,
+    /// where a batch has 256 pairs or more and the device has doubles (shaderFloat64, which must round as the host's);
+    /// the pairs are the same, bit for bit.
     bool devicePoses = false;
     /// conservative with stopAtFirst and without outputs: what is asked is whether anything opaque is within so much of
     /// the mesh's surface; world mm, 0 to 1,000,000. 0 is the touch, by the same programs as without it. `hit` and
@@ -123,7 +123,7 @@ struct Batch {
 /// Contacts that a list has room for, where nothing else is asked for.
 inline constexpr std::uint32_t kDefaultContactRoom = 1U << 16U;
 
-/// Room for the outputs beside the counts, over all pairs of a batch. The bounds have room for maxPairs.
+/// Room for the outputs in addition to the counts, over all pairs of a batch. The bounds have room for maxPairs.
 struct OutputRoom {
     std::uint64_t triangles = 0; ///< for the output triangles: the sum over the pairs of those of their meshes
     std::uint64_t labels = 0;    ///< for the output labels: the sum over the pairs of those of their label maps
@@ -160,12 +160,12 @@ struct ResultsDesc {
     /// For detectors with DetectorDesc::clearance: 68 bytes of device memory per pair, 16 of the host's where there is
     /// a copy, and 648 bytes more for each of clustersAtOnce. They take the queues of the projection conservative.
     bool clearances = false;
-    /// For detectors with DetectorDesc::closest, beside `clearances`, without which it is refused: 48 bytes per pair,
-    /// of the device's memory and of the host's.
+    /// For detectors with DetectorDesc::closest, in addition to `clearances`, without which it is refused: 48 bytes per
+    /// pair, of the device's memory and of the host's.
     bool closest = false;
-    /// For detectors with DetectorDesc::labelClearances, beside `clearances`, without which it is refused: how many
-    /// labels there is room for, with each of maxPairs; at most kMostMeasuredLabels. 16 bytes each, of
-    /// the device's memory and of the host's.
+    /// For detectors with DetectorDesc::labelClearances, in addition to `clearances`, without which it is refused: how
+    /// many labels there is room for, with each of maxPairs; at most kMostMeasuredLabels. 16 bytes each, of the
+    /// device's memory and of the host's.
     std::uint32_t labelClearances = 0;
     /// For detectors with DetectorDesc::motion: 1308 bytes of device memory per pair, 32 of the host's where there is a
     /// copy, and 648 bytes more for each of clustersAtOnce.
@@ -192,8 +192,8 @@ struct ResultsDesc {
     return (VkDeviceSize{maxPairs} * sizeof(PairResult) + kAlignment - 1) / kAlignment * kAlignment;
 }
 
-/// Where the answers of one batch in flight go: a device buffer of PairResult, and what counting needs beside it.
-/// One batch at a time. A second cmdDetect() in the same queue waits for the first one and replaces its answers; in
+/// Where the answers of one batch in flight go: a device buffer of PairResult, and what counting needs in addition to
+/// it. One batch at a time. A second cmdDetect() in the same queue waits for the first one and replaces its answers; in
 /// another queue it must not run before the first one has completed, which a semaphore or a fence of yours ensures.
 /// With ResultsDesc::staged it must not even be recorded before: its poses replace the first one's.
 /// Thread-safety: none; one thread at a time.
@@ -217,8 +217,8 @@ class Results {
     /// The buffer of pairResults(), which begin at its offset.
     [[nodiscard]] VOXTACT_API VkBuffer buffer() const noexcept;
 
-    /// The outputs beside the counts on the device, for the next pass: what the detector of the batch recorded last was
-    /// made for; the other parts hold nothing of use. All are of one buffer with the usage STORAGE_BUFFER |
+    /// The outputs in addition to the counts on the device, for the next pass: what the detector of the batch recorded
+    /// last was made for; the other parts hold nothing of use. All are of one buffer with the usage STORAGE_BUFFER |
     /// TRANSFER_SRC | TRANSFER_DST, ready for readers when pairResults() are, and each is as large as there was room
     /// for. Offsets are multiples of 256. Pairs follow each other in their order.
     ///

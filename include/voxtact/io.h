@@ -155,10 +155,10 @@ struct LabelName {
     std::string name;       ///< what it is called
 };
 
-/// One label a line: `number name`, and whatever follows; `#` comments and empty lines. This is what lies beside label
-/// maps of MRIcron, and FreeSurfer's colour tables. In the order of the file. Errors name the line. Refuses numbers
-/// that are not whole or beyond an int32, a line without a name, a number with two different names, and a file without
-/// a label.
+/// One label per line: `number name`, and whatever follows; `#` comments and empty lines. This is what lies beside
+/// label maps of MRIcron, and FreeSurfer's colour tables. In the order of the file. Errors name the line. Refuses
+/// numbers that are not whole or beyond an int32, a line without a name, a number with two different names, and a file
+/// without a label.
 [[nodiscard]] VOXTACT_API Result<std::vector<LabelName>> readLabelNames(const std::filesystem::path& path);
 
 /// A point of a list.

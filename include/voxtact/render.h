@@ -312,7 +312,8 @@ class RenderTargets {
     std::unique_ptr<RenderTargetsImpl> impl_;
 };
 
-/// The normals of a mesh's vertices, beside its positions: the mean of the triangles round a vertex, weighted by area.
+/// The normals of a mesh's vertices, in addition to its positions: the mean of the triangles round a vertex, weighted
+/// by area.
 class MeshNormals {
   public:
     /// Refuses what checkMesh() refuses.
@@ -328,9 +329,9 @@ class MeshNormals {
     VOXTACT_API Result<void> cmdUpload(VkCommandBuffer commandBuffer);
     /// As Mesh::releaseStaging().
     VOXTACT_API void releaseStaging() noexcept;
-    /// Records the normals of another shape of the mesh, beside Mesh::cmdUpdate(): `data` has as many vertices. They
-    /// are kept in the command buffer itself, 12 bytes each; no device memory is allocated. O(vertices + triangles) on
-    /// the host. Refuses what checkMesh() refuses, and another number of vertices.
+    /// Records the normals of another shape of the mesh, in addition to Mesh::cmdUpdate(): `data` has as many vertices.
+    /// They are kept in the command buffer itself, 12 bytes each; no device memory is allocated. O(vertices +
+    /// triangles) on the host. Refuses what checkMesh() refuses, and another number of vertices.
     ///   call it             outside a render pass, on any queue with graphics, compute or transfer
     ///   expects             normals that were uploaded; earlier commands that use them are waited for
     ///   leaves              the normals readable by vertex input, in every later command

@@ -47,7 +47,7 @@ struct WrappedVolume {
     bool bricks = false;
 };
 
-/// What a volume is made with beside its voxels.
+/// What a volume is made with in addition to its voxels.
 struct VolumeOptions {
     const char* name = nullptr; ///< appears on the Vulkan objects; may be null
     /// Keeps the range of values of every brick of 8^3 cells on the device, which passes that skip what is transparent

@@ -115,7 +115,7 @@ VXT_API vxt_exactness vxt_method_exactness(vxt_method method);
 /// EXACT for the methods that are the same on every device with it (compute, cpu), HARDWARE for the others.
 VXT_API vxt_filter vxt_default_filter(vxt_method method);
 
-/// What a detector answers beside the counts: bits of `outputs`.
+/// What a detector answers in addition to the counts: bits of `outputs`.
 typedef enum vxt_output {
     VXT_OUTPUT_TRIANGLES = 1,   ///< which triangles have survivors, and how many
     VXT_OUTPUT_CONTACTS = 2,    ///< a vxt_contact for each survivor, as many as there is room for

@@ -18,8 +18,8 @@ namespace voxtact::cpu {
 /// Refuses a label map that is not there where labels are asked for, or is none.
 [[nodiscard]] Result<void> checkLabelMaps(const Batch& batch, const Outputs& outputs);
 
-/// The outputs beside the counts of one batch, in the arithmetic of exact.h and contact.h. Threads share the pairs, and
-/// the triangles of a pair.
+/// The outputs in addition to the counts of one batch, in the arithmetic of exact.h and contact.h. Threads share the
+/// pairs, and the triangles of a pair.
 class OutputRun {
   public:
     class Sink;

@@ -307,7 +307,7 @@ Result<void> Detector::cmdDetect(VkCommandBuffer commandBuffer, const Batch& bat
                 ErrorCode::LimitExceeded, 0,
                 "the Results, for " + std::to_string(slot.maxPairs) +
                     " pairs, have no queues for the projection conservative: ResultsDesc::clustersAtOnce is 0, "
-                    "or the device's maxStorageBufferRange has no room for them beside so many pairs"};
+                    "or the device's maxStorageBufferRange has no room for them in addition to so many pairs"};
         }
         if (live(impl_).desc.clearance && !slot.clearances) {
             return refuse("the Results have no room for clearances: ResultsDesc::clearances is false");

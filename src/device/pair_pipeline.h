@@ -37,8 +37,8 @@ class PairPipeline {
     /// What happens meanwhile. Only the first may not be empty.
     struct Events {
         std::function<void(const TimedAnswer&)> pair;
-        /// After all pairs of a submission: the answers beside their counts, where there is room for them, and the
-        /// clearances and counters of a detector that has them; `pair` counts from the first of these.
+        /// After all pairs of a submission: the answers in addition to their counts, where there is room for them, and
+        /// the clearances and counters of a detector that has them; `pair` counts from the first of these.
         std::function<void(const BatchAnswer&)> submission{};
         /// Asked before each submission: true, and no more are made.
         std::function<bool()> stop{};

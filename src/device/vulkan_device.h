@@ -93,7 +93,7 @@ class VulkanInstance {
 struct DeviceOptions {
     /// Changes what is enabled, before the device is made: a test takes features away with it.
     std::function<void(FeatureRequest&)> adjustFeatures{};
-    std::vector<const char*> extensions{}; ///< beside voxtact's optional ones; without them there is no device
+    std::vector<const char*> extensions{}; ///< in addition to voxtact's optional ones; without them there is no device
 };
 
 /// A device with one graphics queue and every feature that voxtact can use.

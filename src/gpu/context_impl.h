@@ -66,7 +66,8 @@ struct ContextImpl : SharedImpl<ContextImpl> {
     Owned<VkDescriptorSetLayout> refitSetLayout;
     Owned<VkPipelineLayout> refitLayout;
     Buffer nothing; ///< emptyBuffer()
-    /// The same with outputs beside the counts: VOXTACT_SET_PAIRS has two more bindings, and there is a set more.
+    /// The same with outputs in addition to the counts: VOXTACT_SET_PAIRS has two more bindings, and there is a set
+    /// more.
     VkDescriptorSetLayout outputSetLayout = VK_NULL_HANDLE;
     VkDescriptorSetLayout labelSetLayout = VK_NULL_HANDLE;
     VkPipelineLayout rasterOutputLayout = VK_NULL_HANDLE; ///< null where the device's limits do not allow for it

@@ -52,7 +52,7 @@ Result<void> fillMap(LabelMapImpl& map, const LabelData& data, const char* name)
     return {};
 }
 
-/// What clearances to labels need beside the image.
+/// What clearances to labels need in addition to the image.
 Result<void> fillNodes(LabelMapImpl& map, const LabelData& data, const std::string& name) {
     ContextImpl& context = map.context;
     const VkDeviceSize bytes = labelNodeCount(data.grid) * sizeof(LabelBits);

@@ -15,7 +15,7 @@ struct RasterPipelineDesc {
     VkPipelineLayout layout =
         VK_NULL_HANDLE;        ///< that of the shaders: ContextImpl::rasterLayout, or one that extends it
     bool vertexInput = true;   ///< false: the vertex shader reads no vertex buffer
-    bool normals = false;      ///< float3 at binding and location 1, packed, beside the positions
+    bool normals = false;      ///< float3 at binding and location 1, packed, in addition to the positions
     bool overestimate = false; ///< by VK_EXT_conservative_rasterization, which must be enabled
     std::span<const VkFormat> colourFormats{};  ///< of the attachments, which are written without blending
     VkFormat depthFormat = VK_FORMAT_UNDEFINED; ///< with one, what is nearer hides what is behind

@@ -20,10 +20,10 @@ constexpr std::array kRequirements{
     Requirement{"synchronization2", kVulkan13, true, "nothing works: every barrier is a VkDependencyInfo"},
     Requirement{"occlusionQueryPrecise", kCore, false, "no counting method query"},
     Requirement{"fragmentStoresAndAtomics", kCore, false,
-                "no counting methods atomic and subgroup, and no outputs beside the counts by the rasteriser"},
-    Requirement{
-        "geometryShader", kCore, false,
-        "no outputs beside the counts by the rasteriser, and no list of surviving fragments (gl_PrimitiveID needs it)"},
+                "no counting methods atomic and subgroup, and no outputs in addition to the counts by the rasteriser"},
+    Requirement{"geometryShader", kCore, false,
+                "no outputs in addition to the counts by the rasteriser, and no list of surviving fragments "
+                "(gl_PrimitiveID needs it)"},
     Requirement{"shaderFloat64", kCore, false,
                 "poses on the device, and steps of motions, take longer (80 us on an H100): integers make the doubles"},
 };

@@ -210,7 +210,7 @@ void MainLoop::play() {
     state.takePose(state.document.pose + 1);
 }
 
-/// A picture is made beside the frames, in bands of rows: a large one takes long.
+/// A picture is made while frames go on, in bands of rows: a large one takes long.
 void MainLoop::takeScreenshot() {
     State& state = *state_;
     if (shooting_) {

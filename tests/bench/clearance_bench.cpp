@@ -319,7 +319,7 @@ Mat4 moved(const Mat4& pose, std::mt19937_64& random) {
 
 using Way = std::array<Mat4, 2>;
 
-/// What FCL says of the ways, beside what is certain.
+/// What FCL says of the ways, compared with what is certain.
 void measureFclMotions(const Scene& scene, const std::vector<Way>& ways, const std::vector<SegmentMotion>& truth) {
     const lab::FclMotion fcl = scene.volume.fcl->motion({scene.data.positions, scene.data.indices});
     std::printf("%-50s returns %g\n", "FCL continuousCollide(), conservative advancement",

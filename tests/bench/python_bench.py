@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What `scene.detect` costs beside the C++ call that it makes, in one run: one pose, and 100,000 poses.
+"""What `scene.detect` costs compared with the C++ call that it makes, in one run: one pose, and 100,000 poses.
 
 usage: python_bench.py [POSES] [--json]
 

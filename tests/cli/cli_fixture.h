@@ -16,7 +16,7 @@ namespace voxtact::test {
 using Arguments = std::vector<std::string>;
 
 struct RunOptions {
-    std::map<std::string, std::string> environment{}; ///< set beside the tests' own
+    std::map<std::string, std::string> environment{}; ///< set in addition to the tests' own
     std::string output{};                             ///< a file for standard output: /dev/full. Empty: captured
     bool closedPipe = false;                          ///< standard output is a pipe that nobody reads
     std::string note{};                               ///< for output(): what the only note says; empty: there is none

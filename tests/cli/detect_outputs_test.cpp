@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What voxtact detect says beside the counts: columns, files, names. By the host, against the library itself.
+// What voxtact detect says in addition to the counts: columns, files, names. By the host, against the library itself.
 #include "cli_fixture.h"
 #include "voxtact/cpu.h"
 #include "voxtact/io.h"

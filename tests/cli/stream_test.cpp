@@ -189,7 +189,7 @@ TEST_F(StreamTest, ADashIsStandardOutput) {
     Arguments dashed = motion;
     dashed.insert(dashed.end(), {"--output", "-"});
     EXPECT_EQ(output(dashed), output(motion));
-    // Also for what is beside the rows, where these have a file.
+    // Also for what is in addition to the rows, where these have a file.
     const std::string rows = output(detect({"--triangles", path("t.csv")}));
     EXPECT_EQ(output(detect({"--triangles", "-", "--output", path("rows.csv")})), readText(path("t.csv")));
     EXPECT_EQ(readText(path("rows.csv")), rows);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
-// What the program's own instance and device call beside what the library does (src/device).
+// What the program's own instance and device call in addition to what the library does (src/device).
 #define VOXTACT_OWNER_FUNCTIONS(X)                                                                                     \
     X(CreateInstance)                                                                                                  \
     X(DestroyInstance)                                                                                                 \

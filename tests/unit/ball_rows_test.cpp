@@ -194,7 +194,7 @@ TEST(BallRows, ObliqueGridsAndRadiiThatEndAtAVoxel) {
     EXPECT_GT(tally.near, 500U);
 }
 
-/// No guess in double finds the row here: the voxels' numbers are lost beside the coordinates.
+/// No guess in double finds the row here: the voxels' numbers are lost next to the coordinates.
 TEST(BallRows, WhereDoublesCannotTellOneVoxelFromTheNext) {
     Grid grid;
     grid.size = {9, 8, 7};

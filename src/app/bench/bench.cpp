@@ -22,26 +22,27 @@ constexpr const char* kBenchFooter =
 timed; rounds take a sample of every engine in turn, so that what else the machine does falls on all alike.
 
 --certified: does the mesh touch, and how much, by the projection conservative, which misses no contact: the host on one
-thread and on all, the device's compute path, and beside them the projection view and FCL (a mesh against an octree of
+thread and on all, the device's compute path, and with them the projection view and FCL (a mesh against an octree of
 the opaque voxels; where it is built in), with the share of certified contacts that each misses and of the poses that
 certainly do not touch and that it reports as contacts. Poses at large, and poses around the onset of contact, from 0.75
 voxels inside to 0.25 outside. Default scene: builtin:scalpel:3068 and builtin:ellipsoid:49998 against builtin:head:256
 with --opacity "40:0,80:1". Exit status 3 when engines that must agree do not.
 
---outputs: what each projection costs beside the view, by the host and by the methods of the device, and what each of
-the outputs (touched triangles, bounds, labels, contacts) costs beside the bare count of the same method and projection.
-Labels are of a map with a label for each octant of the volume. The counts with an output must be those without. Default
-scene: builtin:scalpel:3068 against builtin:head:128.
+--outputs: what each projection costs compared with the view, by the host and by the methods of the device, and what
+each of the outputs (touched triangles, bounds, labels, contacts) costs compared with the bare count of the same method
+and projection. Labels are of a map with a label for each octant of the volume. The counts with an output must be those
+without. Default scene: builtin:scalpel:3068 against builtin:head:128.
 
 --latency: how long a loop that moves a mesh, such as one that drives a haptic device, waits for one answer: 10000 ticks
-(--number) of strokes from 10 voxels outside to 2 voxels inside and on to the next place, one pair a tick. The certified
-yes or no and count, and the count in the view, by the host on one thread and on all, and by every method of the device:
-its command buffer is recorded each tick, that of compute also once, with the pose in mapped memory; it is submitted
-alone, and polled for or waited for; nothing is allocated and no timestamp written. Poses are rounded to floats. Beside it an empty submission on the same queue. The answer of every tick is held against the host's
-after its clock has stopped: certified ones and those of compute must be it, those of the rasteriser must be each other's
-and differ from it by roundings alone (by no more than half and 64 fragments). A wrong one ends the measurement with exit
-status 3; what was measured before is still written. Engines take turns of 250 ticks, after 10 that are not timed.
-An engine takes fewer ticks where its share of --time-limit (60 s, of all) is used up. Default scene: builtin:scalpel:3068
+(--number) of strokes from 10 voxels outside to 2 voxels inside and on to the next place, one pair per tick. The
+certified yes or no and count, and the count in the view, by the host on one thread and on all, and by every method of
+the device: its command buffer is recorded each tick, that of compute also once, with the pose in mapped memory; it is
+submitted alone, and polled for or waited for; nothing is allocated and no timestamp written. Poses are rounded to
+floats. In addition an empty submission on the same queue. The answer of every tick is held against the host's after its
+clock has stopped: certified ones and those of compute must be it, those of the rasteriser must be each other's and
+differ from it by roundings alone (by no more than half and 64 fragments). A wrong one ends the measurement with exit
+status 3; what was measured before is still written. Engines take turns of 250 ticks, after 10 that are not timed. An
+engine takes fewer ticks where its share of --time-limit (60 s, of all) is used up. Default scene: builtin:scalpel:3068
 against builtin:head:256 with --opacity "40:0,80:1".
 
 --batches: what a batch costs by its size: random poses, 1, 10, 100 and so on up to 100000 (--number) in a submission
@@ -90,7 +91,7 @@ struct ModeFlag {
 };
 constexpr std::array<ModeFlag, 5> kModes{{
     {"--certified", BenchMode::Certified, "yes or no, and counts, that miss no contact"},
-    {"--outputs", BenchMode::Outputs, "what each projection and each output costs beside the bare count"},
+    {"--outputs", BenchMode::Outputs, "what each projection and each output costs compared with the bare count"},
     {"--latency", BenchMode::Latency, "one pair, now: how long a loop waits for each answer"},
     {"--batches", BenchMode::Batches, "what a batch costs by how many pairs it has"},
     {"--paper", std::nullopt,

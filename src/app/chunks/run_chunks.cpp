@@ -122,7 +122,7 @@ std::string chunksText(std::uint64_t count) {
     return std::to_string(count) + (count == 1 ? " chunk" : " chunks");
 }
 
-/// What there is beside the error, for who asks what is lost.
+/// What there is in addition to the error, for who asks what is lost.
 Error withWhatIsThere(Error error, const RunFolder& folder) {
     if (error.code == ErrorCode::File) {
         error.text += "; " + chunksText(folder.chunksThere()) + " in " + folderText(folder.path()) +

@@ -160,7 +160,8 @@ DetectorDesc descOf(const DetectOptions& options, CountingMethod method) {
     return desc;
 }
 
-/// Submissions so large, and so many of them, that the answers beside the counts keep within what they may take.
+/// Submissions so large, and so many of them, that the answers in addition to the counts keep within what they may
+/// take.
 device::PipelineDesc pipelineDescOf(const DetectOptions& options, const DetectInputs& inputs) {
     const Outputs outputs = options.extra.outputs();
     const std::uint64_t contactBytes = outputs.contacts ? options.extra.contactRoom() * kBytesOfContact : 0;

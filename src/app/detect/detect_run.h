@@ -119,7 +119,7 @@ struct KeptBounds {
     std::uint64_t pose = 0;
 };
 
-/// The outputs of the options that are files beside the table, and their paths; an empty path: not asked for.
+/// The outputs of the options that are files in addition to the table, and their paths; an empty path: not asked for.
 [[nodiscard]] MergePaths sideFiles(const DetectOptions& options);
 
 /// Decides what the options leave open: afterwards there are a projection and jobs. Refuses options that do not go
@@ -150,13 +150,13 @@ struct VolumeSettings {
 /// Refuses a viewport beyond `most`, which is what `who` can do.
 [[nodiscard]] Result<void> checkViewport(const VkExtent2D& size, const VkExtent2D& most, const std::string& who);
 
-/// Bytes for the answers beside the counts of all batches in flight.
+/// Bytes for the answers in addition to the counts of all batches in flight.
 constexpr std::uint64_t kMostOutputBytes = std::uint64_t{256} << 20U;
 
 /// Of the largest mesh.
 [[nodiscard]] std::uint64_t mostTriangles(const DetectInputs& inputs);
-/// Pairs of a batch or submission: as many as --batch says, or fewer where the answers beside the counts would take
-/// too much memory. `copies` of them are in flight.
+/// Pairs of a batch or submission: as many as --batch says, or fewer where the answers in addition to the counts would
+/// take too much memory. `copies` of them are in flight.
 [[nodiscard]] std::uint32_t pairsPerBatch(const DetectOptions& options, const DetectInputs& inputs,
                                           std::uint32_t copies);
 

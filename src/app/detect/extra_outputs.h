@@ -17,8 +17,8 @@ namespace CLI {
 class App;
 }
 
-/// What `voxtact detect` reports beside the counts, all that is known of each output in one place: its options, what a
-/// row keeps of it, its columns. Files of their own are in detect_files.h.
+/// What `voxtact detect` reports in addition to the counts, all that is known of each output in one place: its options,
+/// what a row keeps of it, its columns. Files of their own are in detect_files.h.
 namespace voxtact::app {
 
 struct Row;
@@ -26,7 +26,7 @@ class DetectOutput;
 
 constexpr std::uint32_t kDefaultMostContacts = 1U << 20U;
 
-/// What is asked for beside the counts.
+/// What is asked for in addition to the counts.
 struct ExtraOptions {
     std::filesystem::path triangles; ///< files to write; empty: not asked for
     std::filesystem::path contacts;

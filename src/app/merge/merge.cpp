@@ -13,9 +13,9 @@ namespace voxtact::app {
 namespace {
 
 constexpr const char* kMergeFooter =
-    R"(DIR is the folder that detect, motion or plan filled with --resume, by one process or by all shards. What is written is byte
-for byte what the same command writes without --resume. A file that is asked for beside the rows must be one that the
-run was asked for. Chunks that are missing or damaged are said, and nothing is written; DIR stays as it is.
+    R"(DIR is the folder that detect, motion or plan filled with --resume, by one process or by all shards. What is written is
+byte for byte what the same command writes without --resume. A file that is asked for in addition to the rows must be
+one that the run was asked for. Chunks that are missing or damaged are said, and nothing is written; DIR stays as it is.
 
 Examples:
   voxtact detect --volume head.nii.gz --mesh tool.stl --poses poses.txt --resume run --shard 1/2
@@ -32,7 +32,7 @@ struct MergeOptions {
     std::filesystem::path surface;
     std::filesystem::path heatMap;
 
-    /// Those beside the rows.
+    /// Those in addition to the rows.
     [[nodiscard]] MergePaths files() const {
         return {{"--triangles", triangles}, {"--closest", closest}, {"--label-clearance", labels},
                 {"--by-target", byTarget},  {"--surface", surface}, {"--heat-map", heatMap}};

@@ -129,7 +129,7 @@ int runOther(const Words& words) {
     return status;
 }
 
-/// What the first rank does for the others, beside its own share.
+/// What the first rank does for the others, in addition to its own share.
 class Service {
   public:
     Service(DeckHolder& deck, int ranks) : deck_(deck), ranks_(ranks), works_(static_cast<std::size_t>(ranks)) {}

@@ -7,7 +7,7 @@
 
 namespace voxtact::app {
 
-/// What a window needs of instance and device beside what everybody does.
+/// What a window needs of instance and device in addition to what everybody does.
 struct SessionExtensions {
     std::vector<const char*> instance{};
     std::vector<const char*> device{};

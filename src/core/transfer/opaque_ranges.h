@@ -24,7 +24,7 @@ namespace voxtact {
 class OpaqueRanges {
   public:
     /// `table` as sampleTable() returns it. A threshold that is not positive makes every scalar opaque. `largest` is
-    /// largestTerm(): with a domain that is narrow beside it, the scalar is off by more than an entry.
+    /// largestTerm(): with a domain that is narrow compared with it, the scalar is off by more than an entry.
     OpaqueRanges(std::span<const float> table, const ValueRange& domain, double threshold, double largest = 0);
 
     /// Whether a scalar of the closed range (in the image's own units) may be opaque.

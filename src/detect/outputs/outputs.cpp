@@ -12,7 +12,7 @@ namespace voxtact {
 namespace {
 
 Error unsupported(const std::string& reason) {
-    return {ErrorCode::Unsupported, 0, "the outputs beside the counts cannot be had on this device: " + reason};
+    return {ErrorCode::Unsupported, 0, "the outputs in addition to the counts cannot be had on this device: " + reason};
 }
 
 Result<void> checkLabelMaps(const ContextImpl& context, const Batch& batch, const Outputs& outputs) {

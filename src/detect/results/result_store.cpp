@@ -24,7 +24,7 @@ VkDeviceSize bytesFor(const ContextImpl& context) {
     return limitsOf(context).bytes;
 }
 
-/// For any projection, as far as the device has room for them, and for the least queues beside them.
+/// For any projection, as far as the device has room for them, and for the least queues in addition to them.
 std::uint32_t transformsFor(const ContextImpl& context, std::uint32_t maxPairs) {
     const VkDeviceSize bytes =
         bytesFor(context) - std::min(bytesFor(context), kSetupBytes + queueBytes(kUsualQueueRoom));

@@ -134,7 +134,8 @@ Result<AffineSteps> spaceSteps(const fs::path& path, const NrrdHeader& header, s
     AffineSteps affine;
     affine.directions = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
     if (!header.get("spacings").empty()) {
-        return cannotRead(path, "its NRRD header says 'spacings' beside a space, which NRRD forbids; write it anew");
+        return cannotRead(path,
+                          "its NRRD header says 'spacings' together with a space, which NRRD forbids; write it anew");
     }
     if (const std::string text = header.get("spacedirections"); !text.empty()) {
         const auto vectors = vectorsOf(text);

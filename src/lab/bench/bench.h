@@ -10,8 +10,8 @@ namespace voxtact::lab {
 
 /// What `voxtact bench` can measure of engines.
 enum class BenchMode {
-    Certified, ///< the certified answer beside the view and FCL
-    Outputs,   ///< what each projection and each output costs beside the bare count
+    Certified, ///< the certified answer compared with the view and FCL
+    Outputs,   ///< what each projection and each output costs compared with the bare count
     Latency,   ///< one pair, now: how long a loop that moves a mesh waits for its answer, tick by tick
     Batches,   ///< what a batch costs by how many pairs are in it
 };

@@ -73,7 +73,7 @@ const ModeOutput& outputOf(BenchMode mode) {
         {addRateColumns, kNotOfRates, ", ratios to the first engine of each scene, round by round"},
         {addRateColumns, kNotOfRates,
          ", ratios of projections to the view by the same method, of outputs to the bare count, round by round"},
-        {addTickColumns, {"triangles", "touching", "rounding"}, ", one pair a tick"},
+        {addTickColumns, {"triangles", "touching", "rounding"}, ", one pair per tick"},
         {addBatchColumns, {}, ", a batch is a submission that is waited for, or a call of the host"},
     }};
     return kOutputs.at(static_cast<std::size_t>(mode));
@@ -105,7 +105,7 @@ std::string shareText(const char* what, std::uint64_t part, std::uint64_t whole)
     return percent ? "; of the " + grouped(whole) + what + shortText(*percent) + " %" : std::string();
 }
 
-/// How the first engine of each scene, yes or no on one thread, does beside FCL.
+/// How the first engine of each scene, yes or no on one thread, does compared with FCL.
 std::vector<std::string> besideFcl(const BenchResult& result) {
     std::vector<std::string> out;
     for (const BenchRow& row : result.rows) {

@@ -51,7 +51,7 @@ Result<FragmentCheck> check(FragmentTrace& trace, const Scene& scene, std::uint3
     return made;
 }
 
-/// The oracle beside the method that counts what it counts, on the poses that were checked: a part of all.
+/// The oracle compared with the method that counts what it counts, on the poses that were checked: a part of all.
 void tellOracle(const std::vector<std::uint32_t>& sample, CompareResult& result) {
     const std::vector<NamedCounts> exact = countsBy(result.counts, Coverage::Computed);
     if (exact.empty()) {

@@ -82,7 +82,7 @@ template <class State, class Run> [[nodiscard]] Engine engineOf(EngineFacts fact
 /// `sameCounts` its counts must be that one's.
 [[nodiscard]] Result<void> add(Engines& engines, MadeEngine engine, std::size_t ratioTo = 0, bool sameCounts = false);
 
-/// What an engine answers: yes or no, or the count and the output beside it.
+/// What an engine answers: yes or no, or the count and the output in addition to it.
 [[nodiscard]] std::string questionOf(bool yesNo, const Outputs& outputs);
 /// Of a method; the threads are the host's, 0: the device works.
 template <class Desc>

@@ -64,7 +64,8 @@ Result<void> checkOnePair(const ContextImpl& context, const Batch& batch, const 
     return *pairs == 1 ? Result<void>() : refuse(lab::concat(what, " one pair, the batch has ", *pairs));
 }
 
-/// How much larger boxes are made, beside what the device's float arithmetic can be off by, relative to coordinates.
+/// How much larger boxes are made, in addition to what the device's float arithmetic can be off by, relative to
+/// coordinates.
 constexpr double kVoxels = 0.5;
 constexpr double kFloatError = 0x1p-18;
 

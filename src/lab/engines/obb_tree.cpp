@@ -170,7 +170,7 @@ void linkNodes(std::vector<ObbNode>& nodes) {
 
 /// Of the sums below, relative to the sum of the magnitudes of what goes into them: some thirty roundings of 2^-53.
 constexpr double kError = 0x1p-46;
-/// Beside what underflows.
+/// Apart from what underflows.
 constexpr double kTiny = 1e-290;
 
 /// A parallelepiped and a box along the axes, relative to the box's centre.

@@ -101,7 +101,7 @@ struct Output {
     io::Table table{};                    ///< of CSV and text
     std::string about{};                  ///< a comment behind the table; may be empty
     std::vector<std::string> sentences{}; ///< what was found, in plain English; comments of CSV and text
-    std::vector<std::string> notes{};     ///< beside the machine's
+    std::vector<std::string> notes{};     ///< in addition to the machine's
 };
 
 [[nodiscard]] Json jsonOf(const Output& output);

@@ -36,7 +36,7 @@ struct Machine {
     std::string cpu;
     std::uint32_t cpuThreads = 0;
     std::string filter;             ///< the arithmetic of the hardware filter, in words
-    double filterError = 0;         ///< by which it is off, in stored units, beside its weights
+    double filterError = 0;         ///< by which it is off, in stored units, in addition to its weights
     std::vector<std::string> notes; ///< what to know when reading the times
 };
 

@@ -11,7 +11,7 @@
 
 namespace voxtact::view {
 
-/// Answers of the device beside the frames, on a thread and with submissions of its own, one at a time: no frame waits
+/// Answers of the device while frames go on, on a thread and with submissions of its own, one at a time: no frame waits
 /// for what is compiled for a method that was not used before.
 class BesideAnswers {
   public:

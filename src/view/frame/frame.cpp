@@ -193,7 +193,7 @@ Result<void> Frames::collectAnswers(State& state, double wallMilliseconds, bool 
     return {};
 }
 
-/// Of what was asked beside the frames. A method that cannot answer is told of, and the one before comes back.
+/// Of what was asked while frames go on. A method that cannot answer is told of, and the one before comes back.
 Result<void> Frames::collectBeside(State& state) {
     if (std::optional<Result<LiveAnswer>> compared = stage_->host->takeCompared()) {
         state.comparison.take(std::move(*compared));

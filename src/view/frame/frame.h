@@ -70,7 +70,7 @@ class Frames {
     std::uint32_t slot_ = 0;      ///< of the next frame
     std::uint64_t asked_ = 0;     ///< State::revision of the last question that the host or a frame was asked
     std::uint64_t askedHost_ = 0; ///< the same of the host, which measures clearances
-    bool besideCompares_ = false; ///< what is asked beside the frames is of the comparison
+    bool besideCompares_ = false; ///< what is asked while frames go on is of the comparison
     MethodChoice besideMethod_;   ///< what is asked there else
     MethodChoice answering_;      ///< the last that gave an answer
     std::array<VkDescriptorSet, 3> sliceSets_{};

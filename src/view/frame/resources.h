@@ -7,7 +7,7 @@
 #include <functional>
 #include <span>
 
-/// The window's own Vulkan objects, beside those of voxtact: what an embedder has in its engine.
+/// The window's own Vulkan objects, in addition to those of voxtact: what an embedder has in its engine.
 namespace voxtact::view {
 
 /// Frames that are recorded before the first of them must be done.

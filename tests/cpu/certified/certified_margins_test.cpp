@@ -125,7 +125,7 @@ TEST(CertifiedMargins, TheCountIsThatOfAllTasks) {
 }
 
 /// A sliver's normal is what rounding leaves of it. Its plane is not said to miss a cube whose middle the sliver passes
-/// through, which needs the error of the normal beside the displacement of the corners.
+/// through, which needs the error of the normal in addition to the displacement of the corners.
 TEST(CertifiedMargins, ASliverThroughACubeIsNotSaidToMissIt) {
     const std::uint64_t seed = testSeed();
     std::mt19937_64 random(seed);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The outputs beside the counts, on the host: against the counts, against the oracle, and against solids whose normals
-// and depths are known.
+// The outputs in addition to the counts, on the host: against the counts, against the oracle, and against solids whose
+// normals and depths are known.
 #include "core/geometry/vec3.h"
 #include "cpu/scenes/engine_fixture.h"
 #include "cpu/scenes/random_scene.h"

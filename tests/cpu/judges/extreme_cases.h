@@ -28,7 +28,7 @@ struct ExtremeCase {
 /// The same case for the same numbers.
 [[nodiscard]] ExtremeCase makeExtremeCase(std::uint64_t seed, std::uint64_t number);
 
-/// What the host engine was found to say of cases, beside the judge.
+/// What the host engine was found to say of cases, compared with the judge.
 struct ExtremeTally {
     std::uint64_t touches = 0;  ///< certain, and right
     std::uint64_t none = 0;     ///< certain, and right

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The outputs beside the counts, on the device: the methods against each other, compute against the host bit for bit,
-// the rasteriser against its own trace, and solids whose normals and depths are known.
+// The outputs in addition to the counts, on the device: the methods against each other, compute against the host bit
+// for bit, the rasteriser against its own trace, and solids whose normals and depths are known.
 #include "outputs_fixture.h"
 
 #include "cpu/scenes/random_scene.h"

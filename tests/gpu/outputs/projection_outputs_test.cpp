@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The outputs beside the counts in the projections that have no test of their own for them: two-view, dominant-axis.
+// The outputs in addition to the counts in the projections that have no test of their own for them: two-view,
+// dominant-axis.
 #include "gpu_fixture.h"
 
 #include "core/method/method_table.h"
@@ -12,7 +13,7 @@
 namespace voxtact::test {
 namespace {
 
-/// The triangles are small beside the voxels.
+/// The triangles are small compared with the voxels.
 constexpr std::uint32_t kSamples = 4;
 constexpr Outputs kOutputs{.triangles = true, .bounds = true};
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-/// How near each mesh is, as the host measures it beside the answer.
+/// How near each mesh is, as the host measures it together with the answer.
 namespace voxtact::view {
 
 struct MeshClearance {
