@@ -74,7 +74,6 @@ endif()
 if(VOXTACT_BUILD_VIEW)
   find_package(glfw3 3.3 CONFIG REQUIRED)
   find_package(Freetype REQUIRED)
-  find_package(Fontconfig REQUIRED) # letters that the program's own font lacks
   find_path(VOXTACT_IMGUI_INCLUDE_DIR imgui.h PATH_SUFFIXES imgui REQUIRED)
   find_library(VOXTACT_IMGUI_LIBRARY imgui REQUIRED)
   find_library(VOXTACT_STB_LIBRARY stb REQUIRED) # Debian's Dear ImGui has no copies of its files

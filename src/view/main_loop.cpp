@@ -4,7 +4,6 @@
 #include "core/base/guard.h"
 #include "core/base/try.h"
 #include "view/glfw_panels.h"
-#include "view/panels/fonts.h"
 #include "voxtact/io.h"
 
 #define GLFW_INCLUDE_NONE
@@ -144,9 +143,6 @@ Result<void> MainLoop::turn() {
 /// A surface that is lost is made anew; what is shown stays.
 Result<void> MainLoop::show() {
     State& state = *state_;
-    if (fitFonts(state)) {
-        VOXTACT_TRY(frames_->renewFont());
-    }
     const ImDrawData& panels = drawAllPanels(state);
     Result<void> shown = frames_->show(state, panels, pixelsOf(window_));
     if (!shown.ok()) {

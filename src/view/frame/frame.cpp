@@ -133,11 +133,6 @@ Result<std::unique_ptr<Stage>> Frames::put(std::unique_ptr<Stage> stage, State& 
     return before;
 }
 
-Result<void> Frames::renewFont() {
-    VOXTACT_TRY(waitForFrames());
-    return gui_->uploadFont(*session_);
-}
-
 Result<void> Frames::renewSurface(const std::function<Result<VkSurfaceKHR>()>& make) {
     VOXTACT_TRY(waitForDevice());
     swapchain_.reset(); // with the surface, of which a window has one at a time

@@ -20,8 +20,6 @@ class Frames {
     [[nodiscard]] bool ready() const;
     /// Before the panels: what the slot's frame and the host have answered since. Only when ready().
     [[nodiscard]] Result<void> collect(State& state);
-    /// Between frames: Dear ImGui's fonts were made anew.
-    [[nodiscard]] Result<void> renewFont();
     /// After the panels. `window`: pixels; nothing is shown where one is 0.
     [[nodiscard]] Result<void> show(State& state, const ImDrawData& panels, VkExtent2D window);
     /// Shows another stage, which `state` belongs to, from the next frame on; the one before, or null, comes back.

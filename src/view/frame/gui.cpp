@@ -96,13 +96,10 @@ Result<void> Gui::uploadFont(const device::Session& session) {
                       {font_.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
                       copy, {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT});
     }));
-    if (fontSet_ == VK_NULL_HANDLE) {
-        const Result<VkDescriptorSet> texture = addTexture();
-        VOXTACT_TRY(texture);
-        fontSet_ = *texture;
-    }
-    setTexture(fontSet_, font_.view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-    atlas.SetTexID(static_cast<ImTextureID>(fontSet_));
+    const Result<VkDescriptorSet> texture = addTexture();
+    VOXTACT_TRY(texture);
+    setTexture(*texture, font_.view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    atlas.SetTexID(static_cast<ImTextureID>(*texture));
     return {};
 }
 

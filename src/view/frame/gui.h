@@ -23,8 +23,6 @@ class Gui {
     /// Of the current ImGui context, whose font is uploaded: submits, and waits.
     [[nodiscard]] static Result<Gui> create(const device::Session& session, VkFormat format);
 
-    /// The font of the current ImGui context as it is now: submits, and waits. No frame may be in flight.
-    [[nodiscard]] Result<void> uploadFont(const device::Session& session);
     /// A texture for ImGui::Image(); what it shows is set later. At most 8 of them.
     [[nodiscard]] Result<VkDescriptorSet> addTexture() { return drawing_.addTexture(); }
     /// No frame with it may be in flight.
@@ -38,12 +36,12 @@ class Gui {
 
   private:
     explicit Gui(const device::VulkanDevice& device) : device_(&device) {}
+    [[nodiscard]] Result<void> uploadFont(const device::Session& session);
     void place(VkCommandBuffer commands, const ImDrawData& data, const SampledPart& part) const;
 
     const device::VulkanDevice* device_;
     Drawing drawing_;
     Image font_;
-    VkDescriptorSet fontSet_ = VK_NULL_HANDLE;
     std::array<HostBuffer, kFramesInFlight> vertices_;
     std::array<HostBuffer, kFramesInFlight> indices_;
 };

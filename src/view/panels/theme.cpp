@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: MIT
-#include "view/panels/fonts.h"
 #include "view/panels/panels.h"
+
 #include "voxtact/render.h"
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 namespace voxtact::view {
 
 namespace {
 
+constexpr float kFontSize = 15;
+constexpr float kLetterSize = 32; // of the letters of the patient's sides
+
 ImVec4 rgb(int red, int green, int blue, float alpha = 1) {
-    constexpr float kFull = 255;
-    return {static_cast<float>(red) / kFull, static_cast<float>(green) / kFull, static_cast<float>(blue) / kFull,
+    constexpr float kMost = 255;
+    return {static_cast<float>(red) / kMost, static_cast<float>(green) / kMost, static_cast<float>(blue) / kMost,
             alpha};
 }
 
@@ -80,7 +84,23 @@ void applyTheme(float scale, std::span<const unsigned char> font) {
     // How far a hand trembles.
     ImGui::GetIO().MouseDragThreshold *= scale;
     ImGui::GetIO().MouseDoubleClickMaxDist *= scale;
-    makeFonts(scale, font);
+    // Pairs of the first and the last, ended by a zero; the atlas reads them later.
+    static constexpr std::array<ImWchar, 3> kLetters{'A', 'Z', 0};
+    ImFontConfig config;
+    config.FontDataOwnedByAtlas = false;
+    // Dear ImGui only reads it.
+    ImGui::GetIO().Fonts->AddFontFromMemoryTTF(const_cast<unsigned char*>(font.data()), static_cast<int>(font.size()),
+                                               kFontSize * scale, &config);
+    ImGui::GetIO().Fonts->AddFontFromMemoryTTF(const_cast<unsigned char*>(font.data()), static_cast<int>(font.size()),
+                                               kLetterSize * scale, &config, kLetters.data());
+}
+
+float scaled(float length) {
+    return length * ImGui::GetFontSize() / kFontSize;
+}
+
+const ImFont& letterFont() {
+    return *ImGui::GetIO().Fonts->Fonts.back();
 }
 
 ImVec4 verdictOnPicture(int hit) {
