@@ -9,15 +9,23 @@
 #include <backends/imgui_impl_glfw.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <string>
-#include <vector>
 
 namespace voxtact::view {
 
 namespace {
 
+/// Those that edit a text, or end its field.
+constexpr std::array kEditing{GLFW_KEY_ENTER,     GLFW_KEY_KP_ENTER, GLFW_KEY_ESCAPE, GLFW_KEY_TAB,
+                              GLFW_KEY_BACKSPACE, GLFW_KEY_DELETE,   GLFW_KEY_LEFT,   GLFW_KEY_RIGHT,
+                              GLFW_KEY_UP,        GLFW_KEY_DOWN,     GLFW_KEY_HOME,   GLFW_KEY_END};
+
 void onKey(GLFWwindow* window, int key, int, int action, int modifiers) {
+    if (action == GLFW_PRESS && std::ranges::find(kEditing, key) != kEditing.end()) {
+        static_cast<State*>(glfwGetWindowUserPointer(window))->keystrokes.addKey(key);
+    }
     if (action != GLFW_RELEASE) {
         static_cast<State*>(glfwGetWindowUserPointer(window))
             ->keys.push_back(
@@ -48,7 +56,8 @@ bool isInPath(GLFWwindow* window) {
 }
 
 void onCharacter(GLFWwindow* window, unsigned character) {
-    ImGui_ImplGlfw_CharCallback(window, typedCharacter(character, isInPath(window)));
+    static_cast<State*>(glfwGetWindowUserPointer(window))
+        ->keystrokes.addLetter(typedCharacter(character, isInPath(window)));
 }
 
 /// Dear ImGui's clipboard, `window` being the user's pointer. Valid until the next call.
@@ -63,17 +72,25 @@ const char* clipboard(void* window) {
     return text.c_str();
 }
 
-/// A key that came and went since the last frame is down in this one: fields would not see it. Returns those.
-std::vector<int> pressTaps(const std::vector<KeyPress>& presses) {
-    std::vector<int> taps;
-    for (const KeyPress& press : presses) {
-        const bool ends = press.key == GLFW_KEY_ENTER || press.key == GLFW_KEY_KP_ENTER || press.key == GLFW_KEY_ESCAPE;
-        if (ends && !ImGui::GetIO().KeysDown[press.key]) {
-            ImGui::GetIO().KeysDown[press.key] = true;
-            taps.push_back(press.key);
-        }
+/// Begins Dear ImGui's frame with what was typed, in its order: of keys Dear ImGui knows which are down at a frame, so
+/// one that came and went between two is down in one here, and one whose turn has not come is not.
+void beginFrame(Keystrokes& strokes) {
+    ImGuiIO& io = ImGui::GetIO();
+    const Keystrokes::Frame typed = strokes.next();
+    for (const unsigned letter : typed.letters) {
+        io.AddInputCharacter(letter);
     }
-    return taps;
+    std::array<bool, kEditing.size()> held{};
+    for (std::size_t i = 0; i < kEditing.size(); ++i) {
+        const int key = kEditing[i];
+        held[i] = io.KeysDown[key];
+        io.KeysDown[key] = typed.key == key || (held[i] && !strokes.waits(key));
+        io.KeysDownDuration[key] = typed.key == key ? -1 : io.KeysDownDuration[key]; // it goes down, whatever it was
+    }
+    ImGui::NewFrame();
+    for (std::size_t i = 0; i < kEditing.size(); ++i) {
+        io.KeysDown[kEditing[i]] = held[i];
+    }
 }
 
 /// Dear ImGui counts them by when frames come.
@@ -117,7 +134,7 @@ Panels::~Panels() {
 const ImDrawData& drawAllPanels(State& state) {
     ImGui_ImplGlfw_NewFrame();
     const Pointer::Seen seen = state.pointer.next(glfwGetTime());
-    if (state.pointer.behind()) {
+    if (state.pointer.behind() || state.keystrokes.behind()) {
         glfwPostEmptyEvent(); // the next frame is soon
     }
     ImGuiIO& io = ImGui::GetIO();
@@ -125,11 +142,7 @@ const ImDrawData& drawAllPanels(State& state) {
     if (seen.at) {
         io.MousePos = {static_cast<float>((*seen.at)[0]), static_cast<float>((*seen.at)[1])};
     }
-    const std::vector<int> taps = pressTaps(state.keys);
-    ImGui::NewFrame();
-    for (const int key : taps) {
-        io.KeysDown[key] = false;
-    }
+    beginFrame(state.keystrokes);
     countClicks(seen);
     drawPanels(state);
     state.update();

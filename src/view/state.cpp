@@ -205,6 +205,8 @@ void State::passOn(State& next, std::optional<FileKind> opened) {
     next.frame = frame;
     next.frameTimes = frameTimes;
     next.keys = std::move(keys);
+    next.keystrokes = std::move(keystrokes);
+    next.typedAngles = typedAngles;
     next.pointer = std::move(pointer);
     next.dropped = std::move(dropped);
     next.picture.extent = picture.extent;

@@ -13,6 +13,7 @@
 #include "view/model/files/loading.h"
 #include "view/model/shown/gizmo.h"
 #include "view/model/shown/histogram.h"
+#include "view/model/shown/keystrokes.h"
 #include "view/model/shown/pointer.h"
 #include "view/model/shown/slice.h"
 #include "view/model/shown/view_cube.h"
@@ -213,6 +214,7 @@ struct State {
 
     // What the panels have of their own.
     std::vector<KeyPress> keys; ///< since the last frame
+    Keystrokes keystrokes;      ///< of texts, that no frame had yet
     Pointer pointer;            ///< what frames have not seen of it
     bool itemHeld = false;      ///< by the mouse or the keyboard, as of the last frame
     bool entered = false;       ///< Enter was pressed since the last frame

@@ -102,6 +102,51 @@ TEST(ViewFields, WhatIsTypedIsTakenWhenTheFieldIsLeft) {
     EXPECT_EQ(tipX(state), -7);
 }
 
+/// Dear ImGui gives it the keyboard before the field that had it is drawn.
+TEST(ViewFields, WhatIsTypedIsTakenWhenAnEarlierFieldIsWrittenIn) {
+    State state = smallState();
+    ShownPanels panels(state);
+    const Point2 at = placeOfTip(state, panels);
+    const double toTheNext = state.chart.size[0] / 3;
+    panels.writeAt(at[0] + toTheNext, at[1]);
+    panels.type("5.5");
+    panels.writeAt(at[0], at[1]);
+    EXPECT_EQ(originOf(state.document.edit.pose()), (Vec3{0, 5.5, 0}));
+    panels.type("4");
+    panels.tap(GLFW_KEY_ENTER);
+    EXPECT_EQ(originOf(state.document.edit.pose()), (Vec3{4, 5.5, 0}));
+}
+
+TEST(ViewFields, WhatWasWipedAwayIsNotTaken) {
+    State state = smallState();
+    state.document.edit.pose() = translation({3, 0, 0});
+    ShownPanels panels(state);
+    const Point2 at = placeOfTip(state, panels);
+    for (const std::string& text : {std::string("12"), std::string("-5")}) {
+        panels.writeAt(at[0], at[1]);
+        panels.type(text);
+        panels.tap(GLFW_KEY_BACKSPACE);
+        if (text == "12") {
+            panels.tap(GLFW_KEY_BACKSPACE);
+        }
+        panels.tap(GLFW_KEY_ENTER);
+        panels.frame();
+        EXPECT_EQ(tipX(state), 3) << text;
+    }
+    EXPECT_FALSE(state.history.canUndo());
+}
+
+TEST(ViewFields, AnAngleThatIsNoNumberIsNotTaken) {
+    State state = smallState();
+    ShownPanels panels(state);
+    const Point2 at = placeOfHint(state, panels, "degrees about x, then y, then z");
+    panels.writeAt(at[0], at[1]);
+    panels.type("1e999");
+    panels.tap(GLFW_KEY_ENTER);
+    EXPECT_EQ(anglesOf(state.document.edit.pose(), state.typedAngles), (Vec3{0, 0, 0}));
+    EXPECT_EQ(state.document.edit.pose(), identity());
+}
+
 TEST(ViewFields, EscapeAndAFieldThatNothingIsWrittenInChangeNothing) {
     State state = smallState();
     state.document.edit.pose() = translation({1.23456789, 0, 0});
@@ -133,6 +178,11 @@ TEST(ViewFields, WhatIsTypedMayBeWhatStoodThere) {
     state.document.edit.pose() = translation({61.3, 0, 0});
     ShownPanels panels(state);
     const Point2 at = placeOfTip(state, panels);
+    panels.writeAt(at[0], at[1]);
+    panels.type("7");
+    panels.tap(GLFW_KEY_ENTER);
+    ASSERT_EQ(tipX(state), 7);
+    state.undo();
     for (const std::string& text : {std::string("61.3"), std::string("61.30")}) {
         panels.writeAt(at[0], at[1]);
         panels.type(text);

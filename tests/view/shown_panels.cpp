@@ -46,8 +46,9 @@ ShownPanels::ShownPanels(State& state, float scale, const Extent& points) : stat
     io.DisplaySize = {static_cast<float>(points.width) * scale, static_cast<float>(points.height) * scale};
     io.DeltaTime = 0.02F; // two clicks are soon after another
     io.MousePos = {1, 1};
-    for (const auto& [key, number] : {std::pair(ImGuiKey_Tab, GLFW_KEY_TAB), std::pair(ImGuiKey_Enter, GLFW_KEY_ENTER),
-                                      std::pair(ImGuiKey_Escape, GLFW_KEY_ESCAPE)}) {
+    for (const auto& [key, number] :
+         {std::pair(ImGuiKey_Tab, GLFW_KEY_TAB), std::pair(ImGuiKey_Enter, GLFW_KEY_ENTER),
+          std::pair(ImGuiKey_Escape, GLFW_KEY_ESCAPE), std::pair(ImGuiKey_Backspace, GLFW_KEY_BACKSPACE)}) {
         io.KeyMap[key] = number;
     }
     applyTheme(scale, fontBytes());

@@ -4,37 +4,74 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
+#include <algorithm>
+#include <charconv>
+#include <string_view>
+
 namespace voxtact::view {
 
 namespace {
 
-/// What stands in the field that is typed in, which Dear ImGui forgets when another one gets the keyboard.
-struct Typing {
+/// What stands in a field that is typed in, which Dear ImGui forgets when another one gets the keyboard.
+struct Typed {
     ImGuiID field = 0; ///< 0: none
     double began = 0;  ///< what stood there at first
-    double number = 0; ///< what stands there now
+    double number = 0; ///< what stands there now; `began` where that is no whole number
     int frame = 0;     ///< the last one that showed it
+
+    [[nodiscard]] bool isOf(ImGuiID item) const { return field == item && frame + 1 == ImGui::GetFrameCount(); }
+};
+
+struct Typing {
+    Typed now;
+    Typed left; ///< of which another field, drawn before it in the frame, has taken the keyboard
+
+    void begin(const Typed& typed) {
+        if (now.field != typed.field && now.frame + 1 == ImGui::GetFrameCount()) {
+            left = now;
+        }
+        now = typed;
+    }
 };
 
 Typing& typing() {
-    static Typing now;
-    return now;
+    static Typing all;
+    return all;
+}
+
+/// Whether what is written in a field is a number: Dear ImGui takes the number before for what is none. An operator may
+/// be in front of it.
+bool isNumberIn(ImGuiID item) {
+    const ImGuiInputTextState* const state = ImGui::GetInputTextState(item);
+    std::string_view text = state != nullptr ? state->TextA.Data : "";
+    const auto trim = [&text] { text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size())); };
+    trim();
+    if (!text.empty() && std::string_view("+*/").find(text.front()) != std::string_view::npos) {
+        text.remove_prefix(1);
+        trim();
+    }
+    double number = 0;
+    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
+    return fault == std::errc() &&
+           std::string_view(end, text.data() + text.size()).find_first_not_of(" \t") == std::string_view::npos;
 }
 
 /// An item that is `draw`n with a number and says whether that is another one. `isTyped`: by its ID, whether it is
 /// written in now.
 template <class Number, class Draw, class IsTyped>
 bool takes(const char* label, Number& number, const Draw& draw, const IsTyped& isTyped) {
-    Typing& now = typing();
     const ImGuiID item = ImGui::GetID(label);
     const Number before = number;
-    const bool wasTyped = now.field == item && now.frame + 1 == ImGui::GetFrameCount();
-    // Whatever has become of `before`: to Dear ImGui a number other than that in the field is one that was written.
-    number = wasTyped ? static_cast<Number>(now.number) : before;
+    Typing& all = typing();
+    const Typed typed = all.now.isOf(item) ? all.now : all.left.isOf(item) ? all.left : Typed{};
+    const bool wasTyped = typed.field == item;
+    // Each frame Dear ImGui compares the text with the number as it would be written, and takes what differs for typed:
+    // so the field gets what was typed in it, whatever has become of the number.
+    number = wasTyped ? static_cast<Number>(typed.number) : before;
     const bool edited = draw(number);
     if (isTyped(item)) {
-        now = {item, wasTyped ? now.began : static_cast<double>(before), static_cast<double>(number),
-               ImGui::GetFrameCount()};
+        const double began = wasTyped ? typed.began : static_cast<double>(before);
+        all.begin({item, began, isNumberIn(item) ? static_cast<double>(number) : began, ImGui::GetFrameCount()});
         number = before;
         return false;
     }
@@ -43,9 +80,9 @@ bool takes(const char* label, Number& number, const Draw& draw, const IsTyped& i
     }
     // It was left in this frame, or after the one before.
     const bool restored = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
-    const bool written = static_cast<double>(number) != now.began;
+    const bool written = static_cast<double>(number) != typed.began;
     number = written && !restored ? number : before;
-    now = {};
+    (all.now.field == item ? all.now : all.left) = {};
     return number != before;
 }
 

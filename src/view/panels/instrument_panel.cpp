@@ -48,8 +48,10 @@ void drawAngles(State& state) {
     ImGui::SetNextItemWidth(-ImGui::CalcTextSize("turned \u00B0_").x);
     constexpr float kDegreesOfPoint = 0.5F;
     if (dragNumbers("turned \u00B0", to, kDegreesOfPoint, "%.2f")) {
+        constexpr double kMost = 1e6;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            to[axis] = to[axis] != shown[axis] ? to[axis] : exact[axis];
+            const bool isOther = to[axis] != shown[axis] && std::isfinite(to[axis]);
+            to[axis] = isOther ? std::clamp(to[axis], -kMost, kMost) : exact[axis];
         }
         state.command([&](Edit& edit) { edit.pose() = turnedTo(edit.pose(), to); }, "turned");
         state.typedAngles = TypedAngles{state.document.edit.pose(), to};

@@ -139,7 +139,7 @@ void addRimmed(ImDrawList& list, const ImVec2& at, ImU32 colour, const char* tex
 }
 
 std::string shortened(const std::string& text, float width) {
-    if (ImGui::CalcTextSize(text.c_str()).x <= width) {
+    if (text.empty() || ImGui::CalcTextSize(text.c_str()).x <= width) {
         return text;
     }
     constexpr const char* kDots = "...";
