@@ -437,7 +437,7 @@ EXACT int certifiedSettle(OpacityTable table, float resolution, CertifiedCell ce
 }
 
 /// Whether a vertex alone proves that its triangle touches, in the cell (x, y, z) that it is in. Expects a cell of a
-/// delta that is not less than the triangle's: certifiedSettle() then finds the same.
+/// delta that is not less than the triangle's. Of the triangle's own delta certifiedSettle() finds the same.
 EXACT bool certifiedVertexProves(OpacityTable table, CertifiedCell cell, VoxelPoint vertex, int x, int y, int z,
                                  OUT(CertifiedWitness) witness) {
     const VoxelPoint at = voxelDifference(vertex, voxelPoint(float(x), float(y), float(z)));
