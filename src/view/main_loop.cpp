@@ -164,7 +164,7 @@ Result<void> MainLoop::show() {
     return {};
 }
 
-/// Once it is shown they are of what it has become beside what was there.
+/// Once what was loaded is shown: then the notes are of all that the window shows.
 void MainLoop::tellNotes() {
     if (std::exchange(untold_, false) && desc_->tell) {
         for (const std::string& note : state_->notes) {

@@ -19,18 +19,6 @@ HWY_INLINE Point either(FragmentMask mask, const Point& yes, const Point& no) {
             hn::IfThenElse(mask, yes[2], no[2])};
 }
 
-/// As exactReciprocal().
-HWY_INLINE FragmentV reciprocal(FragmentV value) {
-    const FragmentFloats d;
-    const FragmentWhole whole;
-    const FragmentV magnitude = hn::Abs(value);
-    FragmentV guess = hn::BitCast(d, hn::Sub(hn::Set(whole, 0x7ef311c7), hn::BitCast(whole, magnitude)));
-    for (int step = 0; step < 4; ++step) {
-        guess = hn::Mul(guess, hn::Sub(all(2), hn::Mul(magnitude, guess)));
-    }
-    return hn::Or(guess, hn::AndNot(magnitude, value)); // its sign
-}
-
 /// The outline of a polygon: its edges, in no order, each from a corner to the next.
 struct Outline {
     static constexpr std::size_t kMost = CERTIFIED_MAX_CORNERS;
@@ -68,11 +56,11 @@ HWY_INLINE void cut(std::size_t axis, bool above, FragmentV limit, Outline& outl
         if (!hn::AllFalse(d, hn::Or(out, in))) {
             const FragmentV inside = hn::IfThenElse(out, ofFrom, ofTo);
             const FragmentV outside = hn::IfThenElse(out, ofTo, ofFrom);
-            const FragmentV weight = hn::Mul(inside, reciprocal(hn::Sub(inside, outside)));
+            const FragmentV weight = hn::Mul(inside, reciprocal(d, hn::Sub(inside, outside)));
             const Point start = either(out, from, to);
             const Point end = either(out, to, from);
-            const Point at{between(start[0], end[0], weight), between(start[1], end[1], weight),
-                           between(start[2], end[2], weight)};
+            const Point at{lerp(start[0], end[0], weight), lerp(start[1], end[1], weight),
+                           lerp(start[2], end[2], weight)};
             outline.irregular = hn::Or(outline.irregular, hn::Or(hn::And(out, left), hn::And(in, entered)));
             left = hn::Or(left, out);
             entered = hn::Or(entered, in);
@@ -155,11 +143,11 @@ HWY_INLINE FragmentBoxes boxesOf(const Cells& cells, const Outline& outline) {
 
 /// As certifiedInterpolate().
 HWY_INLINE FragmentV interpolated(const FragmentEntries& entries, const Point& at) {
-    const FragmentV v00 = between(entries[0], entries[1], at[0]);
-    const FragmentV v10 = between(entries[2], entries[3], at[0]);
-    const FragmentV v01 = between(entries[4], entries[5], at[0]);
-    const FragmentV v11 = between(entries[6], entries[7], at[0]);
-    return between(between(v00, v10, at[1]), between(v01, v11, at[1]), at[2]);
+    const FragmentV v00 = lerp(entries[0], entries[1], at[0]);
+    const FragmentV v10 = lerp(entries[2], entries[3], at[0]);
+    const FragmentV v01 = lerp(entries[4], entries[5], at[0]);
+    const FragmentV v11 = lerp(entries[6], entries[7], at[0]);
+    return lerp(lerp(v00, v10, at[1]), lerp(v01, v11, at[1]), at[2]);
 }
 
 /// As certifiedPointProves() of some corner, in cells that are whole in the domain.

@@ -8,6 +8,7 @@
 #endif
 
 #include "cpu/certified/fragment_look.h"
+#include "cpu/simd_exact.h"
 
 #include <hwy/highway.h>
 
@@ -35,10 +36,6 @@ HWY_INLINE FragmentV lesser(FragmentV a, FragmentV b) {
 }
 HWY_INLINE FragmentV greater(FragmentV a, FragmentV b) {
     return hn::IfThenElse(hn::Gt(b, a), b, a);
-}
-/// As exactLerp().
-HWY_INLINE FragmentV between(FragmentV a, FragmentV b, FragmentV weight) {
-    return hn::Add(a, hn::Mul(weight, hn::Sub(b, a)));
 }
 /// As certifiedClamp().
 HWY_INLINE FragmentV clamped(FragmentV value, FragmentV lo, FragmentV hi) {
@@ -84,18 +81,18 @@ struct FragmentRanges {
 /// As certifiedBoxRange().
 HWY_INLINE FragmentRanges rangesIn(const FragmentEntries& entries, const FragmentBoxes& boxes) {
     const auto side = [&](FragmentV x) {
-        const FragmentV v00 = between(entries[0], entries[1], x);
-        const FragmentV v10 = between(entries[2], entries[3], x);
-        const FragmentV v01 = between(entries[4], entries[5], x);
-        const FragmentV v11 = between(entries[6], entries[7], x);
-        const FragmentV lowLow = between(v00, v10, boxes.lo[1]);
-        const FragmentV lowHigh = between(v01, v11, boxes.lo[1]);
-        const FragmentV highLow = between(v00, v10, boxes.hi[1]);
-        const FragmentV highHigh = between(v01, v11, boxes.hi[1]);
-        const FragmentV p = between(lowLow, lowHigh, boxes.lo[2]);
-        const FragmentV q = between(lowLow, lowHigh, boxes.hi[2]);
-        const FragmentV r = between(highLow, highHigh, boxes.lo[2]);
-        const FragmentV s = between(highLow, highHigh, boxes.hi[2]);
+        const FragmentV v00 = lerp(entries[0], entries[1], x);
+        const FragmentV v10 = lerp(entries[2], entries[3], x);
+        const FragmentV v01 = lerp(entries[4], entries[5], x);
+        const FragmentV v11 = lerp(entries[6], entries[7], x);
+        const FragmentV lowLow = lerp(v00, v10, boxes.lo[1]);
+        const FragmentV lowHigh = lerp(v01, v11, boxes.lo[1]);
+        const FragmentV highLow = lerp(v00, v10, boxes.hi[1]);
+        const FragmentV highHigh = lerp(v01, v11, boxes.hi[1]);
+        const FragmentV p = lerp(lowLow, lowHigh, boxes.lo[2]);
+        const FragmentV q = lerp(lowLow, lowHigh, boxes.hi[2]);
+        const FragmentV r = lerp(highLow, highHigh, boxes.lo[2]);
+        const FragmentV s = lerp(highLow, highHigh, boxes.hi[2]);
         return FragmentRanges{lesser(lesser(p, q), lesser(r, s)), greater(greater(p, q), greater(r, s))};
     };
     const FragmentRanges low = side(boxes.lo[0]);

@@ -8,6 +8,7 @@
 #endif
 
 #include "cpu/raster/scratch.h"
+#include "cpu/simd_exact.h"
 
 #include <hwy/highway.h>
 
@@ -20,23 +21,6 @@ using Floats = hn::CappedTag<float, kMaxLanes>;
 using Ints = hn::RebindToSigned<Floats>;
 using FloatV = hn::Vec<Floats>;
 using IntV = hn::Vec<Ints>;
-
-/// base + weight * difference, as exactLerp().
-template <class V> HWY_INLINE V lerp(V a, V b, V weight) {
-    return hn::Add(a, hn::Mul(weight, hn::Sub(b, a)));
-}
-
-/// exactReciprocal()
-template <class D, class V = hn::Vec<D>> HWY_INLINE V reciprocal(D d, V value) {
-    const hn::RebindToSigned<D> ints;
-    const V magnitude = hn::Abs(value);
-    V guess = hn::BitCast(d, hn::Sub(hn::Set(ints, 0x7ef311c7), hn::BitCast(ints, magnitude)));
-    const V two = hn::Set(d, 2.0F);
-    for (int step = 0; step < 4; ++step) {
-        guess = hn::Mul(guess, hn::Sub(two, hn::Mul(magnitude, guess)));
-    }
-    return hn::Or(guess, hn::And(value, hn::SignBit(d)));
-}
 
 /// exactPlaneAt()
 template <class V> HWY_INLINE V planeAt(V base, V u, V v, V weight1, V weight2) {

@@ -69,7 +69,7 @@ class DeviceScene {
     [[nodiscard]] ShownScene scene(const State& state, std::uint32_t slot, bool fine, const Extent& extent) const;
     /// Valid as long as this.
     [[nodiscard]] AskedPairs pairs(const Edit& edit) const;
-    /// Held by whoever records what uses or changes this: frames, and answers in addition to them.
+    /// Held by whoever records what uses or changes this: frames, and answers that are made while these go on.
     [[nodiscard]] std::mutex& recording() { return recording_; }
 
     [[nodiscard]] const Volume& volume() const { return *volume_; }

@@ -43,7 +43,7 @@ Typing& typing() {
 /// be in front of it.
 bool isNumberIn(ImGuiID item) {
     const ImGuiInputTextState* const state = ImGui::GetInputTextState(item);
-    std::string_view text = state != nullptr ? state->TextA.Data : "";
+    std::string_view text = state != nullptr && state->TextA.Data != nullptr ? state->TextA.Data : "";
     const auto trim = [&text] { text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size())); };
     trim();
     if (!text.empty() && std::string_view("+*/").find(text.front()) != std::string_view::npos) {
