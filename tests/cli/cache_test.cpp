@@ -54,17 +54,6 @@ class CacheTest : public CliDeviceTest {
         EXPECT_EQ(files.size(), 1U);
         return files.empty() ? fs::path() : files.front();
     }
-    /// As the program writes its files: a line with size and FNV-1a sum before the content.
-    static std::string sealed(const std::string& content) {
-        std::uint64_t sum = 0xcbf29ce484222325U;
-        for (const char c : content) {
-            sum = (sum ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-        }
-        std::array<char, 64> head{};
-        static_cast<void>(std::snprintf(head.data(), head.size(), "voxtact cache %016zx %016llx\n", content.size(),
-                                        static_cast<unsigned long long>(sum)));
-        return head.data() + content;
-    }
 };
 
 TEST_F(CacheTest, MeasuredOnce) {

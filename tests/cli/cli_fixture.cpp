@@ -139,6 +139,17 @@ void writeText(const fs::path& path, const std::string& text) {
     file << text;
 }
 
+std::string sealed(const std::string& content) {
+    std::uint64_t sum = 0xcbf29ce484222325U;
+    for (const char c : content) {
+        sum = (sum ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+    }
+    std::array<char, 64> head{};
+    static_cast<void>(std::snprintf(head.data(), head.size(), "voxtact cache %016zx %016llx\n", content.size(),
+                                    static_cast<unsigned long long>(sum)));
+    return head.data() + content;
+}
+
 void writeNifti(const fs::path& path, const HandNifti& nifti) {
     std::string header(352, '\0');
     const auto put = [&](std::size_t at, const auto& value) { std::memcpy(header.data() + at, &value, sizeof value); };

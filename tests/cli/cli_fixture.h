@@ -45,6 +45,9 @@ std::vector<std::string> fieldsOf(const std::string& line);
 std::string readText(const std::filesystem::path& path);
 void writeText(const std::filesystem::path& path, const std::string& text);
 
+/// A file of the cache folder, as the program writes it: a line with size and FNV-1a sum before the content.
+std::string sealed(const std::string& content);
+
 /// A NIfTI-1 file, written by hand: sizes as in its header, `type` and `bits` as the standard numbers them, and so
 /// many bytes of voxels, all `value`.
 struct HandNifti {

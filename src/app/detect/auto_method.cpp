@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/detect/auto_method.h"
 
+#include "app/detect/certified_speed.h"
 #include "app/detect/detect_run.h"
 #include "app/detect/speed_cache.h"
 #include "core/base/try.h"
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <thread>
 
 namespace voxtact::app {
 
@@ -31,6 +33,12 @@ bool describes(const std::vector<MethodSpeed>& speeds, const Context& context, b
            (!host || rowOf(speeds.back().verdict.method).host);
 }
 
+/// The two that measureCertified() measures.
+bool describeCertified(const std::vector<MethodSpeed>& speeds) {
+    return speeds.size() == 2 && speeds.front().verdict.method == CountingMethod::Compute &&
+           speeds.front().verdict.available && speeds.back().verdict.method == CountingMethod::Cpu;
+}
+
 Result<std::vector<MethodSpeed>> measureAll(const device::Session& session, std::optional<Filter> filter, bool host) {
     const Result<MeasureScene> scene = makeMeasureScene();
     VOXTACT_TRY(scene);
@@ -42,6 +50,24 @@ Result<std::vector<MethodSpeed>> measureAll(const device::Session& session, std:
         speeds->push_back(measureHost(*scene, desc.repetitions));
     }
     return speeds;
+}
+
+/// What is remembered of `measured`, if it `describes` what is here; else `measure`, remembered unless Vulkan is
+/// validated, which is slow.
+template <class Describes, class Measure>
+Result<MeasuredMethods> remembered(const device::Session& session, const DeviceChoice& choice,
+                                   const std::string& measured, const Describes& describes, const Measure& measure) {
+    const CacheFolder folder(choice.cache);
+    const SpeedCache cache(folder, session.device.physical(), measured);
+    if (std::optional<std::vector<MethodSpeed>> known = cache.read(); known && describes(*known)) {
+        return MeasuredMethods{std::move(*known), false};
+    }
+    Result<std::vector<MethodSpeed>> speeds = measure();
+    VOXTACT_TRY(speeds);
+    if (!choice.validate) {
+        cache.write(*speeds);
+    }
+    return MeasuredMethods{std::move(*speeds), true};
 }
 
 bool fits(const VkExtent2D& size, const VkExtent2D& most) {
@@ -73,15 +99,22 @@ std::string choiceNote(const MeasuredMethods& measured, const AutoLimits& limits
     for (const MethodSpeed& speed : measured.speeds) {
         const std::string name = toString(speed.verdict.method);
         if (speed.verdict.method == chosen) {
-            first = "auto chose " + name + ": " + rateText(speed.pairsPerSecond) + " pairs/s";
+            const double rate = speed.pairsPerSecond; // none where the others could not be measured
+            first = "auto chose " + name + (rate > 0 ? ": " + rateText(rate) + " pairs/s" : "");
         } else if (!rowOf(speed.verdict.method).host || limits.host) {
             others += (others.empty() ? "; " : ", ") + name +
                       (speed.verdict.trusted     ? " " + rateText(speed.pairsPerSecond)
-                       : speed.verdict.available ? " fails its self-test"
+                       : speed.verdict.available ? " is not trusted (" + speed.verdict.text + ")"
                                                  : " is not available");
         }
     }
     return first + others + " (measured on a small scene; --count fixes the method)";
+}
+
+/// How much of the host's processors so many threads have; 0: all.
+double hostShare(std::uint32_t threads) {
+    const std::uint32_t processors = std::max(std::thread::hardware_concurrency(), 1U);
+    return threads == 0 ? 1 : std::min(1.0, static_cast<double>(threads) / processors);
 }
 
 } // namespace
@@ -89,18 +122,10 @@ std::string choiceNote(const MeasuredMethods& measured, const AutoLimits& limits
 Result<MeasuredMethods> measuredMethods(const device::Session& session, std::optional<Filter> filter,
                                         const DeviceChoice& choice) {
     const bool host = filter != Filter::Hardware;
-    const CacheFolder folder(choice.cache);
-    const SpeedCache cache(folder, session.device.physical(), filter);
-    if (std::optional<std::vector<MethodSpeed>> known = cache.read();
-        known && describes(*known, session.context, host)) {
-        return MeasuredMethods{std::move(*known), false};
-    }
-    Result<std::vector<MethodSpeed>> speeds = measureAll(session, filter, host);
-    VOXTACT_TRY(speeds);
-    if (!choice.validate) {
-        cache.write(*speeds);
-    }
-    return MeasuredMethods{std::move(*speeds), true};
+    return remembered(
+        session, choice, filter ? toString(*filter) : "default",
+        [&](const std::vector<MethodSpeed>& known) { return describes(known, session.context, host); },
+        [&] { return measureAll(session, filter, host); });
 }
 
 std::optional<CountingMethod> fastest(std::span<const MethodSpeed> speeds, const AutoLimits& limits,
@@ -133,12 +158,32 @@ Result<AutoChoice> autoMethod(const device::Session& session, const AutoLimits& 
     return AutoChoice{*method, measured->fresh ? choiceNote(*measured, limits, *method) : ""};
 }
 
-CountingMethod conservativeMethod(const device::Session& session, const AutoLimits& limits) {
-    const VkPhysicalDeviceType type = session.device.physical().type;
-    const bool gpu = type == VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU || type == VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU;
-    const bool onDevice =
-        !limits.host || (gpu && session.context.supports(CountingMethod::Compute, Projection::Conservative));
-    return onDevice ? CountingMethod::Compute : CountingMethod::Cpu;
+bool isCertifyingGpu(const device::Session& session) {
+    return session.device.physical().type != VK_PHYSICAL_DEVICE_TYPE_CPU &&
+           session.context.supports(CountingMethod::Compute, Projection::Conservative);
+}
+
+Result<AutoChoice> certifiedMethod(const device::Session& session, const AutoLimits& limits, const CertifiedAsk& ask,
+                                   const DeviceChoice& choice) {
+    if (!limits.host) {
+        return AutoChoice{CountingMethod::Compute, {}};
+    }
+    if (ask.isSmall() || !isCertifyingGpu(session)) {
+        return AutoChoice{CountingMethod::Cpu, {}};
+    }
+    if (!ask.measure) {
+        return AutoChoice{CountingMethod::Compute, {}};
+    }
+    Result<MeasuredMethods> measured =
+        remembered(session, choice, ask.yesNo ? "conservative-yes-no" : "conservative", describeCertified,
+                   [&] { return measureCertified(session, ask.yesNo); });
+    if (!measured.ok()) {
+        return AutoChoice{CountingMethod::Cpu, noDeviceNote(measured.error())};
+    }
+    double& host = measured->speeds.back().pairsPerSecond;
+    host *= hostShare(ask.threads);
+    const CountingMethod method = fastest(measured->speeds, {}, {1, 1}).value_or(CountingMethod::Cpu);
+    return AutoChoice{method, measured->fresh ? choiceNote(*measured, limits, method) : ""};
 }
 
 std::string noDeviceNote(const Error& reason) {

@@ -18,8 +18,8 @@ struct MeasuredMethods {
     bool fresh = false; ///< measured just now, not remembered
 };
 
-/// From the cache folder of `choice`, or measured and, unless Vulkan is validated, put there. `filter`: nothing is each
-/// method's own; the host engine is not measured for hardware.
+/// In the view. From the cache folder of `choice`, or measured and, unless Vulkan is validated, put there. `filter`:
+/// nothing is each method's own; the host engine is not measured for hardware.
 [[nodiscard]] Result<MeasuredMethods> measuredMethods(const device::Session& session, std::optional<Filter> filter,
                                                       const DeviceChoice& choice);
 
@@ -43,9 +43,28 @@ struct AutoChoice {
 [[nodiscard]] Result<AutoChoice> autoMethod(const device::Session& session, const AutoLimits& limits,
                                             const DeviceChoice& choice);
 
-/// For the projection conservative, which only compute and cpu do: the device where it is a GPU that can, or where the
-/// host may not be chosen.
-[[nodiscard]] CountingMethod conservativeMethod(const device::Session& session, const AutoLimits& limits);
+/// A question in the projection conservative, as far as the choice depends on it.
+struct CertifiedAsk {
+    bool yesNo = false;
+    std::optional<std::uint64_t> pairs{}; ///< nothing: not known, many
+    std::uint32_t threads = 0;            ///< of the host; 0: one for each processor
+    bool measure =
+        true; ///< false: processes that must all choose the same ask, and a measurement may come out otherwise
+
+    /// The host has answered so few by the time that a device is open and has its pipelines.
+    [[nodiscard]] bool isSmall() const { return pairs && *pairs < kManyPairs; }
+    static constexpr std::uint64_t kManyPairs = 1024; ///< as many as a submission has
+};
+
+/// Whether the device is a GPU that answers in the projection conservative.
+[[nodiscard]] bool isCertifyingGpu(const device::Session& session);
+
+/// For the projection conservative, which only compute and cpu do, with the same answers. compute where the host may
+/// not be chosen, the host where few are asked or the device is no such GPU; else whichever answers more pairs per
+/// second, measured and remembered as above. The host, with a note, where a GPU cannot be measured or answers otherwise
+/// than the host.
+[[nodiscard]] Result<AutoChoice> certifiedMethod(const device::Session& session, const AutoLimits& limits,
+                                                 const CertifiedAsk& ask, const DeviceChoice& choice);
 
 /// What to say when the host stands in because no device can be used.
 [[nodiscard]] std::string noDeviceNote(const Error& reason);

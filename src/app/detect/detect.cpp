@@ -72,12 +72,27 @@ AutoLimits autoLimits(const DetectOptions& options) {
     return {options.method.filter, options.view.size, host && options.method.filter != Filter::Hardware};
 }
 
-Result<AutoChoice> choose(const DetectOptions& options, const device::Session& session, const AutoLimits& limits) {
+CertifiedAsk certifiedAsk(const DetectOptions& options, const DetectInputs& inputs) {
+    return {.yesNo = options.yesNo(),
+            .pairs = inputs.pairs(options.jobs),
+            .threads = options.threads,
+            .measure = !options.chunks.asked()};
+}
+
+/// Whether the host answers, and no device need be looked for.
+bool isForHost(const DetectOptions& options, const DetectInputs& inputs) {
+    return options.method.count ? rowOf(*options.method.count).host
+                                : rowOf(*options.method.projection).certified && autoLimits(options).host &&
+                                      certifiedAsk(options, inputs).isSmall();
+}
+
+Result<AutoChoice> choose(const DetectOptions& options, const DetectInputs& inputs, const device::Session& session,
+                          const AutoLimits& limits) {
     if (options.method.count) {
         return AutoChoice{*options.method.count, {}};
     }
     if (rowOf(*options.method.projection).certified) {
-        return AutoChoice{conservativeMethod(session, limits), {}};
+        return certifiedMethod(session, limits, certifiedAsk(options, inputs), options.device);
     }
     return autoMethod(session, limits, options.device);
 }
@@ -120,7 +135,7 @@ Result<void> checkDetectPaths(const DetectOptions& options) {
 /// By the device that the options name; by the host where they, or the want of a device, say so.
 Result<void> withEngine(const DetectOptions& options, const DetectInputs& inputs, std::vector<std::string>& notes,
                         std::shared_ptr<const device::ValidationMessages>& messages, const UseEngine& answer) {
-    if (options.method.count && rowOf(*options.method.count).host) {
+    if (isForHost(options, inputs)) {
         if (!options.device.wanted.empty()) {
             notes.push_back("--device " + options.device.wanted +
                             " is not used: the counting method cpu runs on the host");
@@ -132,7 +147,7 @@ Result<void> withEngine(const DetectOptions& options, const DetectInputs& inputs
         const Result<device::Session> session = openSession(options.device);
         if (session.ok()) {
             messages = session->instance.messages();
-            const Result<AutoChoice> choice = choose(options, *session, limits);
+            const Result<AutoChoice> choice = choose(options, inputs, *session, limits);
             VOXTACT_TRY(choice);
             if (!choice->note.empty()) {
                 notes.push_back(choice->note);
@@ -172,7 +187,16 @@ Outcome endOf(const Outcome& outcome, const std::vector<std::string>& notes) {
     return outcome;
 }
 
-Outcome runInChunks(const CLI::App& parser, const DetectOptions& options, DetectInputs& inputs) {
+/// `auto` is what a run began with, wherever it goes on.
+void goOnAlike(DetectOptions& options) {
+    const std::optional<CountingMethod> begun = options.method.count ? std::nullopt : methodOfRun(options.chunks);
+    if (begun && (autoLimits(options).host || !rowOf(*begun).host)) {
+        options.method.count = begun;
+    }
+}
+
+Outcome runInChunks(const CLI::App& parser, DetectOptions options, DetectInputs& inputs) {
+    goOnAlike(options);
     Result<RunFacts> facts = detectRunFacts(parser, options, readPaths(options));
     VOXTACT_TRY(facts);
     std::vector<std::string> notes;

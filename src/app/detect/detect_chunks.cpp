@@ -21,10 +21,12 @@ std::uint64_t pairsOf(const PairRange& group, const DetectOptions& options, cons
     return pairs;
 }
 
+constexpr const char* kMethodFact = "method";
+
 /// Who answers, as far as answers depend on that.
 void addEngineFacts(RunFacts& facts, const PairEngine& engine) {
     const PairAnswer answer = engine.untouched();
-    facts.emplace_back("method", toString(answer.method));
+    facts.emplace_back(kMethodFact, toString(answer.method));
     facts.emplace_back("projection", toString(answer.projection));
     if (!rowOf(answer.method).host) {
         facts.emplace_back("device", engine.device());
@@ -71,6 +73,16 @@ Result<RunFacts> detectRunFacts(const CLI::App& parser, const DetectOptions& opt
     facts.insert(facts.end(), asked.begin(), asked.end());
     VOXTACT_TRY(addInputFacts(facts, reads));
     return facts;
+}
+
+std::optional<CountingMethod> methodOfRun(const ChunkOptions& options) {
+    const Result<RunFolder> folder = RunFolder::read(options.folder);
+    if (!folder.ok()) {
+        return std::nullopt; // it is new, or whoever opens it says what is wrong with it
+    }
+    const RunFacts& facts = folder->manifest().facts;
+    const auto method = std::ranges::find(facts, kMethodFact, &RunFacts::value_type::first);
+    return method == facts.end() ? std::nullopt : countingMethodFromName(method->second);
 }
 
 Outcome answerChunks(const DetectOptions& options, DetectInputs& inputs, RunFacts facts, PairEngine& engine,

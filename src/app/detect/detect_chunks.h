@@ -14,6 +14,10 @@ namespace voxtact::app {
 [[nodiscard]] Result<RunFacts> detectRunFacts(const CLI::App& parser, const DetectOptions& options,
                                               const std::vector<NamedPath>& reads);
 
+/// Who answered the chunks that are in the folder of a run; nothing where there is none yet. Whoever goes on with it
+/// must answer by the same.
+[[nodiscard]] std::optional<CountingMethod> methodOfRun(const ChunkOptions& options);
+
 /// The run in chunks, by an engine.
 [[nodiscard]] Outcome answerChunks(const DetectOptions& options, DetectInputs& inputs, RunFacts facts,
                                    PairEngine& engine, std::vector<std::string>& notes);

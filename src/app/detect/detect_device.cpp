@@ -13,9 +13,6 @@ namespace voxtact::app {
 
 namespace {
 
-/// Enough to keep a device busy while the host records; more only costs memory.
-constexpr std::uint32_t kSubmissionsInFlight = 3;
-
 /// On the device and on the host.
 constexpr std::uint64_t kBytesOfContact = 2 * sizeof(ContactResult);
 

@@ -23,6 +23,8 @@
 namespace voxtact::app {
 
 constexpr std::uint32_t kDefaultBatch = 1024;
+/// Enough to keep a device busy while the host records; more only costs memory.
+constexpr std::uint32_t kSubmissionsInFlight = 3;
 
 /// What is asked for about distances.
 struct DistanceOptions {

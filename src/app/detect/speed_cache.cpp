@@ -43,9 +43,8 @@ std::optional<MethodSpeed> fromJson(const Json& json) {
 
 } // namespace
 
-SpeedCache::SpeedCache(const CacheFolder& folder, const device::PhysicalDevice& device, std::optional<Filter> filter)
-    : folder_(folder), device_(device),
-      name_("speeds-" + cacheKey(device) + "-" + (filter ? toString(*filter) : "default")) {}
+SpeedCache::SpeedCache(const CacheFolder& folder, const device::PhysicalDevice& device, const std::string& measured)
+    : folder_(folder), device_(device), name_("speeds-" + cacheKey(device) + "-" + measured) {}
 
 std::optional<std::vector<MethodSpeed>> SpeedCache::read() const {
     const std::optional<std::string> text = folder_.read(name_);

@@ -5,15 +5,16 @@
 #include "voxtact/detector.h"
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace voxtact::app {
 
-/// How fast each method was, on disk: one file a device, driver, version and filter.
+/// How fast each method was, on disk: one file for a device, driver, version and what was measured.
 class SpeedCache {
   public:
-    /// Both must outlive it.
-    SpeedCache(const CacheFolder& folder, const device::PhysicalDevice& device, std::optional<Filter> filter);
+    /// `measured` is part of the file's name. Folder and device must outlive it.
+    SpeedCache(const CacheFolder& folder, const device::PhysicalDevice& device, const std::string& measured);
 
     /// Nothing where there is no file, or one that was written on another machine or cannot be understood.
     [[nodiscard]] std::optional<std::vector<MethodSpeed>> read() const;

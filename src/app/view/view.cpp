@@ -37,7 +37,8 @@ view::WindowDesc windowDesc(const ViewerOptions& options) {
     desc.frames = options.frames;
     desc.mostSide = options.mostSide;
     desc.method = [](const device::Session& session) {
-        return view::MethodChoice{conservativeMethod(session, {}), Projection::Conservative};
+        return view::MethodChoice{isCertifyingGpu(session) ? CountingMethod::Compute : CountingMethod::Cpu,
+                                  Projection::Conservative};
     };
     return desc;
 }
