@@ -49,8 +49,9 @@ struct RenderTransferFunctionDesc {
     std::span<const ColourPoint> colours = {}; ///< ascending values; constant outside; none: white
     /// The length of material that `opacity` is for, mm: a ray has absorbed that much after so long a way. Opacities
     /// above 0.999 count as 0.999.
-    double opacityUnit = 1;
-    double step = 0.5; ///< mm from one sample of a ray to the next; half a voxel is a good one
+    double opacityUnit = 1; ///< as a Grid's spacing may be
+    double step =
+        0.5; ///< mm from one sample of a ray to the next; half a voxel is a good one; as a Grid's spacing may be
 };
 
 /// What a Renderer is made for.
@@ -58,7 +59,11 @@ struct RendererDesc {
     VkFormat colorFormat = VK_FORMAT_R8G8B8A8_UNORM; ///< of the pictures; a colour attachment. There is no depth image
 };
 
-/// How light falls: from the eye and from its side, on both sides of a surface (Blinn-Phong).
+/// The most that a number of Lighting may be.
+inline constexpr double kMostLight = 1e6;
+
+/// How light falls: from the eye and from its side, on both sides of a surface (Blinn-Phong). Its numbers without a
+/// unit are from 0 to kMostLight.
 struct Lighting {
     bool volume = true;    ///< by the gradient, from central differences; false: the colours as they are
     bool mesh = true;      ///< the same for meshes
@@ -72,7 +77,7 @@ struct Lighting {
     /// 0..1: how dark a place of the volume is that is shut in. What is between it and `reach` mm, half-way
     /// between its normal and the way to the eye, shuts in; faces of a cut are open.
     double occlusion = 0;
-    double reach = 8; ///< mm
+    double reach = 8; ///< mm; as a Grid's spacing may be
     /// Where the border of the volume, a clipping plane or the near plane cuts through what is visible: light falls on
     /// the plane, all of it from the eye and without gloss, for two voxels of the longest spacing behind it, and goes
     /// over to the gradient in two more. false: the gradient at once, which is noise on such a face.
@@ -125,7 +130,7 @@ struct MeshPaint {
     const TransferFunction* transferFunction = nullptr; ///< the detector's; for Contacts and Discarded
     double threshold = kDefaultThreshold;               ///< the same; 0..1
     const PaintedTriangles* triangles = nullptr;        ///< for Triangles; of Scene::mesh
-    const PaintedVertices* vertices = nullptr;          ///< for Vertices; of Scene::mesh
+    const PaintedVertices* vertices = nullptr;          ///< for Vertices; of Scene::mesh, see SceneMesh::normals
     Colour contactColour{1, 0.23, 0.08};                ///< of survivors and chosen triangles; the rest: meshColour
     Colour discardedColour{0.16, 0.36, 0.88};           ///< for Discarded, of what does not survive
     /// 0..1: how much of what is painted is seen through the volume before it: survivors and chosen triangles; with
@@ -136,12 +141,14 @@ struct MeshPaint {
 
 /// A mesh at a pose, and how it looks.
 struct SceneMesh {
-    const Mesh* mesh = nullptr;           ///< what is drawn
-    const MeshNormals* normals = nullptr; ///< optional, of `mesh`: smooth; without, each triangle is flat
-    Mat4 world_from_object = identity();  ///< of the mesh; affine, not singular
-    Colour meshColour{0.75, 0.78, 0.82};  ///< where nothing is painted
-    MeshPaint paint{};                    ///< what of it has another colour
-    bool clipped = false;                 ///< by Scene::clipPlanes, as the volume is
+    const Mesh* mesh = nullptr; ///< what is drawn
+    /// Optional, of `mesh`: smooth; without, each triangle is flat. Of a wrapped mesh: of at least
+    /// WrappedMesh::vertexCount vertices, or three per triangle where it has no indices.
+    const MeshNormals* normals = nullptr;
+    Mat4 world_from_object = identity(); ///< of the mesh; affine, not singular
+    Colour meshColour{0.75, 0.78, 0.82}; ///< where nothing is painted
+    MeshPaint paint{};                   ///< what of it has another colour
+    bool clipped = false;                ///< by Scene::clipPlanes, as the volume is
 };
 /// A SceneMesh::meshColour for each of several meshes: apart from each other, from tissue, and from the colours of
 /// contacts. The first is that of a SceneMesh; after six they begin again.

@@ -43,7 +43,8 @@ struct WrappedVolume {
     /// All values that the voxels on the image's faces take, where the caller knows: lets Boundary::Auto clamp. Refused
     /// where they are no range.
     std::optional<ValueRange> boundaryValues;
-    /// As in VolumeOptions. Not to be used before the first Volume::cmdUpdateBricks(), of the whole grid.
+    /// As in VolumeOptions: the projection conservative needs them. Not to be used before the first
+    /// Volume::cmdUpdateBricks(), of the whole grid.
     bool bricks = false;
 };
 

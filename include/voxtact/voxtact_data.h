@@ -214,8 +214,8 @@ VXT_API void vxt_labels_destroy(vxt_labels* labels);
 
 /// An image that was read or built: voxtact::VolumeData.
 typedef struct vxt_volume_data vxt_volume_data;
-/// Its voxels; valid as long as the object. An empty image of null.
-VXT_API vxt_volume_view vxt_volume_data_view(const vxt_volume_data* data);
+/// Its voxels; valid as long as the object. struct_size of `view` must be set.
+VXT_CHECKED vxt_result vxt_volume_data_view(const vxt_volume_data* data, vxt_volume_view* view);
 /// The file's name, or the builtin's.
 VXT_API const char* vxt_volume_data_name(const vxt_volume_data* data);
 /// What the reader did that the user may want to know, a line each; null beyond the last one.
@@ -225,8 +225,8 @@ VXT_API void vxt_volume_data_destroy(vxt_volume_data* data);
 
 /// A mesh that was read or built: voxtact::MeshData.
 typedef struct vxt_mesh_data vxt_mesh_data;
-/// Its arrays; valid as long as the object. An empty mesh of null.
-VXT_API vxt_mesh_view vxt_mesh_data_view(const vxt_mesh_data* data);
+/// Its arrays; valid as long as the object. struct_size of `view` must be set.
+VXT_CHECKED vxt_result vxt_mesh_data_view(const vxt_mesh_data* data, vxt_mesh_view* view);
 /// The file's name, or the builtin's.
 VXT_API const char* vxt_mesh_data_name(const vxt_mesh_data* data);
 /// As vxt_volume_data_note().

@@ -148,7 +148,7 @@ typedef struct vxt_results_desc {
     uint64_t triangle_room; ///< with outputs: the sum over the pairs of the triangles of their meshes; default 0
     uint64_t label_room;    ///< with outputs: the sum over the pairs of the labels of their label maps; default 0
     uint32_t contact_room;  ///< with outputs: a longer list is cut; default 2^16
-    uint32_t outputs;       ///< not 0: there is room for outputs; default 0
+    uint32_t outputs;       ///< bits of vxt_output: if there are any, there is room for outputs; default none
     uint32_t max_pairs;     ///< pairs of the largest batch; default 1
     uint32_t read_back;     ///< a host copy is kept, for vxt_results_read(); default 1
     uint32_t timestamps;    ///< the device time is measured; default 0

@@ -15,7 +15,8 @@ extern "C" {
 typedef struct vxt_volume_options {
     size_t struct_size; ///< sizeof
     const char* name;   ///< appears on the Vulkan objects; may be null
-    uint32_t bricks;    ///< keeps the range of values of every brick of 8^3 cells, for passes that skip; default 0
+    uint32_t bricks;    ///< keeps the range of values of every brick of 8^3 cells, which the projection CONSERVATIVE
+                        ///< needs; default 0
     uint32_t editable;  ///< allows edits; default 0
 } vxt_volume_options;
 

@@ -4,6 +4,8 @@
 #include "c/structs.h"
 #include "voxtact/results.h"
 
+#include <limits>
+
 /// Data of the C interface as the C++ one takes it, and back. Arrays are looked at where they are, never copied, but
 /// for control points.
 namespace voxtact::c {
@@ -56,8 +58,11 @@ class TransferFunctionOf {
 /// How many elements `count` of `each` are. Refuses an array that is longer than its elements can be counted in bytes.
 std::size_t times(std::size_t count, std::size_t each, const char* what);
 
-/// An array of the caller's.
+/// An array of the caller's. Refuses one that no memory holds.
 template <class T> std::span<const T> toSpan(const T* first, std::size_t count, const char* what) {
+    if (count > std::numeric_limits<std::ptrdiff_t>::max() / sizeof(T)) {
+        refuse(ErrorCode::InvalidArgument, std::string(what) + ": " + std::to_string(count) + " are too many");
+    }
     return count == 0 ? std::span<const T>() : std::span<const T>(&need(first, what), count);
 }
 

@@ -178,8 +178,8 @@ void vxt_labels_destroy(vxt_labels* labels) {
     delete labels;
 }
 
-vxt_volume_view vxt_volume_data_view(const vxt_volume_data* data) {
-    return data == nullptr ? vxt_volume_view_init() : fromVolumeView(data->object.view());
+vxt_result vxt_volume_data_view(const vxt_volume_data* data, vxt_volume_view* view) {
+    return call([&] { writeStruct(view, fromVolumeView(need(data, "data").object.view()), "view"); });
 }
 
 const char* vxt_volume_data_name(const vxt_volume_data* data) {
@@ -194,8 +194,8 @@ void vxt_volume_data_destroy(vxt_volume_data* data) {
     delete data;
 }
 
-vxt_mesh_view vxt_mesh_data_view(const vxt_mesh_data* data) {
-    return data == nullptr ? vxt_mesh_view_init() : fromMeshView(data->object.view());
+vxt_result vxt_mesh_data_view(const vxt_mesh_data* data, vxt_mesh_view* view) {
+    return call([&] { writeStruct(view, fromMeshView(need(data, "data").object.view()), "view"); });
 }
 
 const char* vxt_mesh_data_name(const vxt_mesh_data* data) {

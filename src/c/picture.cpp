@@ -4,6 +4,8 @@
 #include "c/handles.h"
 #include "c/handles_render.h"
 
+#include <algorithm>
+
 using namespace voxtact;
 using namespace voxtact::c;
 
@@ -62,7 +64,10 @@ class SceneOf {
              readStructs(given_.meshes, given_.mesh_count, vxt_scene_mesh_init(), "mesh")) {
             meshes_.push_back(toSceneMesh(mesh));
         }
-        for (const vxt_clip_plane& plane : toSpan(given_.clip_planes, given_.clip_plane_count, "clip_planes")) {
+        const std::span<const vxt_clip_plane> planes =
+            toSpan(given_.clip_planes, given_.clip_plane_count, "clip_planes");
+        // The renderer refuses more; one more than it takes is enough for that.
+        for (const vxt_clip_plane& plane : planes.first(std::min(planes.size(), kMostClipPlanes + 1))) {
             planes_.push_back({toVec3(plane.normal, "normal"), plane.offset});
         }
     }

@@ -2,6 +2,8 @@
 #include "cpu/batch_check.h"
 
 #include "core/batch/batch_check.h"
+#include "core/geometry/pair_transform.h"
+#include "cpu/scene/scene_impl.h"
 
 namespace voxtact::cpu {
 
@@ -16,6 +18,10 @@ struct HostSide {
         return Error{ErrorCode::LimitExceeded, 0, what + ", the host engine's limit is " + most + "x" + most};
     }
     [[nodiscard]] Result<void> checkItem(const BatchItem& /*item*/, const std::string& /*which*/) const { return {}; }
+    [[nodiscard]] bool holdsValues(const BatchItem& item) const {
+        const ValueRange& domain = item.transferFunction->impl().domain;
+        return areSingle(itemConstants(1, item.volume->impl().storedIntercept, domain, 0));
+    }
 };
 
 } // namespace

@@ -51,7 +51,7 @@ struct DeviceSide {
     bool devicePoses;   ///< DetectorDesc::devicePoses
     bool draws;         ///< vertices are the input of a draw
     bool readsVertices; ///< vertices are pulled from a storage buffer
-    bool filters;       ///< by the device's sampler
+    Filter filter;
 
     [[nodiscard]] Result<void> checkExtent(const WideExtent& extent, const std::string& what) const {
         const VkPhysicalDeviceLimits& limits = context.limits;
@@ -76,7 +76,7 @@ struct DeviceSide {
         if (const char* what = missingUpload(item); what != nullptr) {
             return neverUploaded(which + ": " + what);
         }
-        if (filters && !(item.volume->impl().filtered && item.transferFunction->impl().filtered)) {
+        if (filter == Filter::Hardware && !(item.volume->impl().filtered && item.transferFunction->impl().filtered)) {
             return Error{ErrorCode::Unsupported, 0,
                          which + ": the device cannot filter the " +
                              (item.volume->impl().filtered ? "transfer function's table" : "volume's format") +
@@ -87,6 +87,8 @@ struct DeviceSide {
         }
         return readsVertices ? checkStorage(item, "the projection dominant-axis") : Result<void>();
     }
+
+    [[nodiscard]] bool holdsValues(const BatchItem& item) const { return areSingle(itemConstants(item, filter, 0)); }
 };
 
 } // namespace
@@ -94,9 +96,9 @@ struct DeviceSide {
 Result<std::uint32_t> checkBatch(const ContextImpl& context, const DetectorDesc& desc, const Batch& batch) {
     const bool rasterised = rowOf(desc.method).coverage == Coverage::Rasteriser;
     const bool pulls = rowOf(desc.projection).voxelGrid;
+    const Filter filter = rowOf(desc.projection).certified ? Filter::Exact : desc.filter;
     return checkBatch(desc.projection, desc.samplesPerVoxel, batch,
-                      DeviceSide{context, desc.devicePoses, rasterised && !pulls, rasterised && pulls,
-                                 desc.filter == Filter::Hardware && !rowOf(desc.projection).certified});
+                      DeviceSide{context, desc.devicePoses, rasterised && !pulls, rasterised && pulls, filter});
 }
 
 std::size_t BatchItem::pairs() const noexcept {

@@ -11,6 +11,7 @@
 #include "gpu/submit.h"
 
 #include <cstring>
+#include <limits>
 #include <numeric>
 
 namespace voxtact {
@@ -81,8 +82,6 @@ Result<std::vector<std::uint32_t>> orderOf(const WrappedMesh& wrapped) {
 /// Makes what is kept of the clusters of a wrapped mesh, and stages what the host knows of them.
 Result<void> makeWrappedClusters(MeshImpl& mesh, const WrappedMesh& wrapped) {
     ContextImpl& context = mesh.context;
-    const Result<std::vector<std::uint32_t>> order = orderOf(wrapped);
-    VOXTACT_TRY(order);
     const std::uint64_t indices = mesh.indexed() ? std::uint64_t{3} * mesh.triangleCount : 0;
     const VkDeviceSize bytes = sizeof(std::uint32_t) * (indices + clusterWordCount(mesh.triangleCount));
     if (bytes > context.limits.maxStorageBufferRange) {
@@ -91,6 +90,8 @@ Result<void> makeWrappedClusters(MeshImpl& mesh, const WrappedMesh& wrapped) {
                          " bytes of a buffer, the device's maxStorageBufferRange is " +
                          std::to_string(context.limits.maxStorageBufferRange)};
     }
+    const Result<std::vector<std::uint32_t>> order = orderOf(wrapped);
+    VOXTACT_TRY(order);
     Result<Buffer> buffer = makeBuffer(context, bytes, kStorage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::Device,
                                        "clusters of a wrapped mesh");
     VOXTACT_TRY(buffer);
@@ -110,6 +111,16 @@ Result<void> checkStride(VkDeviceSize stride, VkDeviceSize offset, const char* t
     return stride < kPositionBytes || stride % 4 != 0 || offset % 4 != 0 ? Result<void>(refuse(text)) : Result<void>();
 }
 
+/// What the buffers of a wrapped mesh must have is a number of bytes.
+Result<void> checkEnds(const WrappedMesh& wrapped) {
+    constexpr VkDeviceSize kMost = std::numeric_limits<VkDeviceSize>::max() / 2;
+    if (wrapped.vertexOffset > kMost || wrapped.indexOffset > kMost ||
+        VkDeviceSize{wrapped.vertexStride} > kMost / wrapped.vertexCount) {
+        return refuse("WrappedMesh::vertexOffset, indexOffset or vertexStride is beyond what a buffer can have");
+    }
+    return {};
+}
+
 Result<void> checkWrapped(const WrappedMesh& wrapped) {
     if (wrapped.vertices == VK_NULL_HANDLE) {
         return refuse("WrappedMesh::vertices is null");
@@ -125,6 +136,7 @@ Result<void> checkWrapped(const WrappedMesh& wrapped) {
     }
     VOXTACT_TRY(checkStride(wrapped.vertexStride, wrapped.vertexOffset,
                             "WrappedMesh::vertexStride must be at least 12, and it and vertexOffset multiples of 4"));
+    VOXTACT_TRY(checkEnds(wrapped));
     if (wrapped.clusters && !wrapped.storage) {
         return refuse("WrappedMesh::clusters needs buffers that can be read as storage: WrappedMesh::storage");
     }

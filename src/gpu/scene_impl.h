@@ -94,6 +94,8 @@ struct MeshImpl {
 
     [[nodiscard]] bool wrapped() const noexcept { return vertices != buffer.get(); }
     [[nodiscard]] bool indexed() const noexcept { return indices != VK_NULL_HANDLE; }
+    /// Vertices that a draw of it may reach.
+    [[nodiscard]] std::uint32_t drawnVertices() const noexcept { return indexed() ? vertexCount : 3 * triangleCount; }
 };
 
 /// Poses of the caller's.

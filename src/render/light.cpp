@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/refuse.h"
 #include "core/base/text.h"
+#include "core/geometry/check_length.h"
 #include "render/matrix_rows.h"
 #include "render/render_impl.h"
 
@@ -64,15 +65,15 @@ vec4 floats(const Vec3& v, double w) {
 Result<void> checkLighting(const Lighting& lighting) {
     for (const double value :
          {lighting.ambient, lighting.diffuse, lighting.specular, lighting.shininess, lighting.side}) {
-        if (!(value >= 0) || !std::isfinite(value)) {
-            return refuse("the lighting has a value of " + number(value) + ", which is not finite or below 0");
+        if (!(value >= 0 && value <= kMostLight)) {
+            return refuse("the lighting has a value of " + number(value) + ", outside [0, " + number(kMostLight) + "]");
         }
     }
     if (!(lighting.occlusion >= 0 && lighting.occlusion <= 1)) {
         return refuse("the lighting has the occlusion " + number(lighting.occlusion) + ", outside [0, 1]");
     }
-    if (lighting.occlusion > 0 && !(lighting.reach > 0 && std::isfinite(lighting.reach))) {
-        return refuse("the lighting has the reach " + number(lighting.reach) + ", which is not finite and above 0");
+    if (lighting.occlusion > 0) {
+        VOXTACT_TRY(checkLength(lighting.reach, "the lighting's reach"));
     }
     const double length = lengthOf(lighting.sideFrom);
     if (lighting.side > 0 && !(length > 0 && std::isfinite(length))) {

@@ -53,7 +53,7 @@ Result<void> checkVertices(const ContextImpl& context, const SceneMesh& mesh) {
     if (&vertices->impl().context != &context) {
         return refuse("Scene::paint has colours of vertices of another Context");
     }
-    const std::uint64_t needed = mesh.mesh->impl().wrapped() ? 0 : mesh.mesh->impl().vertexCount;
+    const std::uint64_t needed = mesh.mesh->impl().drawnVertices();
     if (vertices->impl().room < needed) {
         return refuse("Scene::paint has colours for " + std::to_string(vertices->impl().room) +
                       " vertices, the mesh has " + std::to_string(needed));

@@ -15,17 +15,6 @@ namespace {
 
 constexpr VkDeviceSize kOffsets = 256; ///< what BufferRange promises; more than any minStorageBufferOffsetAlignment
 
-Result<void> checkSize(const ContextImpl& context, VkDeviceSize bytes, const PaintName& name) {
-    VOXTACT_TRY(context.alive());
-    if (bytes > context.limits.maxStorageBufferRange) {
-        return Error{ErrorCode::LimitExceeded, 0,
-                     std::string(name.words) + " are " + std::to_string(bytes) +
-                         " bytes, the device's maxStorageBufferRange is " +
-                         std::to_string(context.limits.maxStorageBufferRange)};
-    }
-    return {};
-}
-
 Result<void> describe(PaintWords& paint, const RendererImpl& renderer, const BufferRange& words, std::uint64_t perWord,
                       const PaintName& name) {
     constexpr VkDescriptorPoolSize kSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1};
@@ -39,9 +28,20 @@ Result<void> describe(PaintWords& paint, const RendererImpl& renderer, const Buf
 
 } // namespace
 
+Result<void> checkPaintBytes(const ContextImpl& context, VkDeviceSize bytes, const PaintName& name) {
+    VOXTACT_TRY(context.alive());
+    if (bytes > context.limits.maxStorageBufferRange) {
+        return Error{ErrorCode::LimitExceeded, 0,
+                     std::string(name.words) + " are " + std::to_string(bytes) +
+                         " bytes, the device's maxStorageBufferRange is " +
+                         std::to_string(context.limits.maxStorageBufferRange)};
+    }
+    return {};
+}
+
 Result<void> makePaintWords(PaintWords& paint, const RendererImpl& renderer, std::span<const std::uint32_t> words,
                             std::uint64_t perWord, const PaintName& name) {
-    VOXTACT_TRY(checkSize(paint.context, words.size_bytes(), name));
+    VOXTACT_TRY(checkPaintBytes(paint.context, words.size_bytes(), name));
     VOXTACT_TRY(makeStaged(paint.context, words.size_bytes(), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, name.whole,
                            paint.buffer, paint.staging));
     std::memcpy(paint.staging.mapped, words.data(), words.size_bytes());
@@ -58,7 +58,7 @@ Result<void> wrapPaintWords(PaintWords& paint, const RendererImpl& renderer, con
         return refuse(std::string(name.words) + " begin at byte " + std::to_string(words.offset) +
                       ", which is no multiple of " + std::to_string(kOffsets));
     }
-    VOXTACT_TRY(checkSize(paint.context, words.size, name));
+    VOXTACT_TRY(checkPaintBytes(paint.context, words.size, name));
     VOXTACT_TRY(describe(paint, renderer, words, perWord, name));
     paint.uploaded = true;
     return {};

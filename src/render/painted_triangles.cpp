@@ -22,8 +22,12 @@ Result<void> checkDevice(const ContextImpl& context) {
     return {};
 }
 
+std::size_t wordsOf(std::uint32_t meshTriangles) {
+    return (std::size_t{meshTriangles} + kBitsOfWord - 1) / kBitsOfWord;
+}
+
 Result<std::vector<std::uint32_t>> bitsOf(std::uint32_t meshTriangles, std::span<const std::uint32_t> triangles) {
-    std::vector<std::uint32_t> bits((std::size_t{meshTriangles} + kBitsOfWord - 1) / kBitsOfWord);
+    std::vector<std::uint32_t> bits(wordsOf(meshTriangles));
     for (const std::uint32_t triangle : triangles) {
         if (triangle >= meshTriangles) {
             return refuse("triangle " + std::to_string(triangle) + " is to be painted, the mesh has " +
@@ -48,9 +52,10 @@ Result<PaintedTriangles> PaintedTriangles::create(const Renderer& renderer, std:
         if (meshTriangles == 0) {
             return refuse("a mesh without triangles cannot be painted");
         }
+        VOXTACT_TRY(checkDevice(context));
+        VOXTACT_TRY(checkPaintBytes(context, wordsOf(meshTriangles) * sizeof(std::uint32_t), kTrianglesName));
         const Result<std::vector<std::uint32_t>> bits = bitsOf(meshTriangles, triangles);
         VOXTACT_TRY(bits);
-        VOXTACT_TRY(checkDevice(context));
         auto impl = std::make_unique<PaintedTrianglesImpl>(context);
         VOXTACT_TRY(makePaintWords(*impl, renderer.impl(), *bits, kBitsOfWord, kTrianglesName));
         return PaintedTriangles(std::move(impl));

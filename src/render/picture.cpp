@@ -29,6 +29,10 @@ Result<void> checkMeshParts(const ContextImpl& context, const SceneMesh& mesh) {
     if (&normals.context != &context || (!drawn.wrapped() && drawn.vertexCount != normals.vertices)) {
         return refuse("Scene::normals is not of Scene::mesh");
     }
+    if (normals.vertices < drawn.drawnVertices()) {
+        return refuse("Scene::normals has " + std::to_string(normals.vertices) + " vertices, the wrapped mesh has " +
+                      std::to_string(drawn.drawnVertices()));
+    }
     return {};
 }
 

@@ -107,6 +107,8 @@ struct PaintName {
     const char* words = ""; ///< "the bits of the painted triangles": plural
     const char* whole = ""; ///< "painted triangles"
 };
+/// Refuses more bytes of them than the device can bind.
+[[nodiscard]] Result<void> checkPaintBytes(const ContextImpl& context, VkDeviceSize bytes, const PaintName& name);
 /// `perWord`: triangles or vertices in a word.
 [[nodiscard]] Result<void> makePaintWords(PaintWords& paint, const RendererImpl& renderer,
                                           std::span<const std::uint32_t> words, std::uint64_t perWord,

@@ -72,10 +72,19 @@ bool isOfIntegers(VkFormat format) {
     }
 }
 
+/// Whether Vulkan 1.3 has it, and pictures could be of it: the others are compressed, or of several planes. A driver
+/// may not be asked about what is no format.
+bool isOnePlane(VkFormat format) {
+    return (format > VK_FORMAT_UNDEFINED && format <= VK_FORMAT_ASTC_12x12_SRGB_BLOCK) ||
+           format == VK_FORMAT_A4R4G4B4_UNORM_PACK16 || format == VK_FORMAT_A4B4G4R4_UNORM_PACK16;
+}
+
 Result<void> checkFormat(const ContextImpl& context, VkFormat format, VkFormatFeatureFlags needed, const char* use) {
     VkFormatProperties properties{};
-    context.vk.GetPhysicalDeviceFormatProperties(context.physicalDevice, format, &properties);
-    if (format == VK_FORMAT_UNDEFINED || (properties.optimalTilingFeatures & needed) != needed) {
+    if (isOnePlane(format)) {
+        context.vk.GetPhysicalDeviceFormatProperties(context.physicalDevice, format, &properties);
+    }
+    if (!isOnePlane(format) || (properties.optimalTilingFeatures & needed) != needed) {
         return Error{ErrorCode::Unsupported, 0,
                      "the device cannot use VkFormat " + std::to_string(format) + " for " + use};
     }

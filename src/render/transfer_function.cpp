@@ -4,6 +4,7 @@
 #include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
+#include "core/geometry/check_length.h"
 #include "core/transfer/table_extremes.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
@@ -18,13 +19,6 @@ namespace voxtact {
 namespace {
 
 constexpr std::uint32_t kMostEntries = 1024;
-
-Result<void> checkPositive(double value, const char* what) {
-    if (!(value > 0) || !std::isfinite(value)) {
-        return refuse(std::string(what) + " " + number(value) + " is not positive and finite");
-    }
-    return {};
-}
 
 /// One channel of the colours, sampled as the opacity is.
 Result<std::vector<float>> sampleChannel(const RenderTransferFunctionDesc& desc, std::size_t channel) {
@@ -44,8 +38,8 @@ Result<std::vector<float>> sampleChannel(const RenderTransferFunctionDesc& desc,
 }
 
 Result<void> setFunction(RenderTransferFunctionImpl& function, const RenderTransferFunctionDesc& desc) {
-    VOXTACT_TRY(checkPositive(desc.step, "the step"));
-    VOXTACT_TRY(checkPositive(desc.opacityUnit, "the opacity unit"));
+    VOXTACT_TRY(checkLength(desc.step, "the step"));
+    VOXTACT_TRY(checkLength(desc.opacityUnit, "the opacity unit"));
     if (desc.opacity.tableSize > kMostEntries) {
         return refuse("the transfer function's table has " + std::to_string(desc.opacity.tableSize) +
                       " entries, for pictures it may have " + std::to_string(kMostEntries));

@@ -42,12 +42,12 @@ void expectSame(const vxt_mesh_view& view, const MeshData& mesh) {
 
 TEST(CData, BuiltinsAreTheCppInterfaces) {
     const auto volume = builtinVolume("ct:12");
-    expectSame(vxt_volume_data_view(volume.get()), take(makeBuiltinVolume("ct:12")));
+    expectSame(dataView(volume), take(makeBuiltinVolume("ct:12")));
     EXPECT_EQ(vxt_volume_data_name(volume.get()), take(makeBuiltinVolume("ct:12")).name);
     EXPECT_EQ(vxt_volume_data_note(volume.get(), 0), nullptr);
     const auto mesh =
         made<vxt_mesh_data>(vxt_mesh_data_destroy, [](auto out) { return vxt_builtin_mesh("scalpel", out); });
-    expectSame(vxt_mesh_data_view(mesh.get()), take(makeBuiltinMesh("scalpel")));
+    expectSame(dataView(mesh), take(makeBuiltinMesh("scalpel")));
     vxt_volume_data* none = nullptr;
     EXPECT_EQ(vxt_builtin_volume("nothing", &none), VXT_ERROR_INVALID_ARGUMENT);
     EXPECT_THAT(vxt_last_error(nullptr), HasSubstr("nothing"));
@@ -176,7 +176,7 @@ TEST_F(CFiles, VolumesAndMeshesComeBackAsTheyWere) {
     need(vxt_write_volume(path("ct.nrrd").c_str(), &view));
     const auto read = made<vxt_volume_data>(
         vxt_volume_data_destroy, [&](auto out) { return vxt_read_volume(path("ct.nrrd").c_str(), nullptr, out); });
-    const vxt_volume_view back = vxt_volume_data_view(read.get());
+    const vxt_volume_view back = dataView(read);
     ASSERT_EQ(back.bytes, view.bytes);
     EXPECT_EQ(std::memcmp(back.voxels, view.voxels, view.bytes), 0);
     EXPECT_STREQ(vxt_volume_data_name(read.get()), "ct.nrrd");
@@ -190,7 +190,7 @@ TEST_F(CFiles, VolumesAndMeshesComeBackAsTheyWere) {
     const auto cube = made<vxt_mesh_data>(
         vxt_mesh_data_destroy, [&](auto out) { return vxt_read_mesh(path("cube.obj").c_str(), &options, out); });
     vxt_mesh_facts facts{};
-    const vxt_mesh_view readView = vxt_mesh_data_view(cube.get());
+    const vxt_mesh_view readView = dataView(cube);
     need(vxt_check_mesh(&readView, &facts));
     EXPECT_EQ(facts.bounds.lo[0], -10); // x and y are negated
     EXPECT_EQ(facts.bounds.hi[2], 10);

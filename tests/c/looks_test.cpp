@@ -169,7 +169,7 @@ TEST(CLooks, CreasesAreTheCppInterfaces) {
     const auto split =
         made<vxt_mesh_data>(vxt_mesh_data_destroy, [&](auto out) { return vxt_split_at_creases(&view, 40, out); });
     const MeshData expected = *splitAtCreases(roof.view(), 40);
-    const vxt_mesh_view found = vxt_mesh_data_view(split.get());
+    const vxt_mesh_view found = dataView(split);
     EXPECT_GT(found.vertex_count, view.vertex_count);
     EXPECT_EQ(std::vector(found.positions, found.positions + 3 * found.vertex_count), expected.positions);
     EXPECT_EQ(std::vector(found.indices, found.indices + 3 * found.triangle_count), expected.indices);

@@ -78,8 +78,6 @@ TEST(CMisuse, WhatIsAskedOfNothingIsNothing) {
     EXPECT_EQ(vxt_control_points_get(nullptr, nullptr), nullptr);
     EXPECT_EQ(vxt_label_names_get(nullptr, 0, nullptr), nullptr);
     EXPECT_EQ(vxt_points_get(nullptr, 0, nullptr, nullptr), nullptr);
-    EXPECT_EQ(vxt_volume_data_view(nullptr).bytes, 0U);
-    EXPECT_EQ(vxt_mesh_data_view(nullptr).triangle_count, 0U);
     EXPECT_STREQ(vxt_volume_data_name(nullptr), "");
     EXPECT_STREQ(vxt_mesh_data_name(nullptr), "");
     EXPECT_EQ(vxt_volume_data_note(nullptr, 0), nullptr);
@@ -123,6 +121,10 @@ TEST(CMisuse, NullIsRefusedByTheHost) {
     EXPECT_NULL_REFUSED(vxt_answer_create(nullptr));
     EXPECT_NULL_REFUSED(vxt_answer_get(nullptr, nullptr));
     EXPECT_NULL_REFUSED(vxt_answer_get(newAnswer().get(), nullptr));
+    vxt_volume_view volume = vxt_volume_view_init();
+    EXPECT_NULL_REFUSED(vxt_volume_data_view(nullptr, &volume));
+    vxt_mesh_view mesh = vxt_mesh_view_init();
+    EXPECT_NULL_REFUSED(vxt_mesh_data_view(nullptr, &mesh));
     EXPECT_NULL_REFUSED(vxt_host_volume_create(nullptr, nullptr));
     EXPECT_NULL_REFUSED(vxt_host_volume_set_box(nullptr, nullptr, 0));
     EXPECT_NULL_REFUSED(vxt_host_volume_set_ball(nullptr, nullptr, 0, 0));
@@ -255,6 +257,17 @@ TEST(CMisuse, LengthsBeyondWhatMemoryHasAreRefused) {
     mesh.triangle_count = SIZE_MAX;
     EXPECT_EQ(vxt_check_mesh(&mesh, &facts), VXT_ERROR_INVALID_ARGUMENT);
     EXPECT_THAT(vxt_last_error(nullptr), HasSubstr("triangles"));
+    const vxt_box box{};
+    vxt_box_pairs* pairs = nullptr;
+    EXPECT_EQ(vxt_overlapping_pairs(&box, SIZE_MAX, nullptr, 0, &pairs), VXT_ERROR_INVALID_ARGUMENT);
+    EXPECT_THAT(vxt_last_error(nullptr), HasSubstr("left: 18446744073709551615 are too many"));
+    const char* extension = "VK_none";
+    vxt_context_desc desc = vxt_context_desc_init();
+    desc.enabled_device_extensions = &extension;
+    desc.enabled_device_extension_count = SIZE_MAX;
+    vxt_context* context = nullptr;
+    EXPECT_EQ(vxt_context_create(&desc, &context), VXT_ERROR_INVALID_ARGUMENT);
+    EXPECT_THAT(vxt_last_error(nullptr), HasSubstr("are too many"));
 }
 
 TEST(CMisuse, AContextOfNothingNamesEverythingThatIsMissing) {

@@ -294,7 +294,7 @@ TEST_F(CFilesInParts, FromMemoryAsFromFiles) {
     const auto data = made<vxt_volume_data>(vxt_volume_data_destroy, [&](auto out) {
         return vxt_read_volume_bytes("some.nrrd", bytes.data(), bytes.size(), nullptr, out);
     });
-    const vxt_volume_view read = vxt_volume_data_view(data.get());
+    const vxt_volume_view read = dataView(data);
     ASSERT_EQ(read.bytes, volume.voxels.size());
     EXPECT_EQ(std::memcmp(read.voxels, volume.voxels.data(), read.bytes), 0);
 
@@ -308,8 +308,8 @@ TEST_F(CFilesInParts, FromMemoryAsFromFiles) {
     const auto readMesh = made<vxt_mesh_data>(vxt_mesh_data_destroy, [&](auto out) {
         return vxt_read_mesh_bytes("cube.ply", meshBytes.data(), meshBytes.size(), &options, out);
     });
-    EXPECT_EQ(vxt_mesh_data_view(readMesh.get()).triangle_count, 12U);
-    EXPECT_EQ(std::abs(vxt_mesh_data_view(readMesh.get()).positions[0]), 10);
+    EXPECT_EQ(dataView(readMesh).triangle_count, 12U);
+    EXPECT_EQ(std::abs(dataView(readMesh).positions[0]), 10);
     vxt_mesh_data* none = nullptr;
     EXPECT_EQ(vxt_read_mesh_bytes("cube.stl", meshBytes.data(), 7, nullptr, &none), VXT_ERROR_FORMAT);
 }

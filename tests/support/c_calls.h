@@ -32,6 +32,18 @@ template <class Handle, class Make> Owned<Handle> made(void (*destroy)(Handle*),
     return {handle, destroy};
 }
 
+/// What the views of read or built data are, which must be there.
+[[nodiscard]] inline vxt_volume_view dataView(const Owned<vxt_volume_data>& data) {
+    vxt_volume_view view = vxt_volume_view_init();
+    need(vxt_volume_data_view(data.get(), &view));
+    return view;
+}
+[[nodiscard]] inline vxt_mesh_view dataView(const Owned<vxt_mesh_data>& data) {
+    vxt_mesh_view view = vxt_mesh_view_init();
+    need(vxt_mesh_data_view(data.get(), &view));
+    return view;
+}
+
 [[nodiscard]] vxt_grid cGrid(const Grid& grid);
 [[nodiscard]] vxt_volume_view cVolume(const VolumeData& volume);
 [[nodiscard]] vxt_mesh_view cMesh(const MeshData& mesh);

@@ -199,9 +199,11 @@ TEST(BallRows, WhereDoublesCannotTellOneVoxelFromTheNext) {
     Grid grid;
     grid.size = {9, 8, 7};
     Tally tally;
-    for (const double origin : {1e15, 1e17, -3e18}) {
+    for (const double origin : {1e9, 1e11, -1e12}) {
+        const double unit = std::abs(origin) * 0x1p-58; // as 1 is to 1e17 and more
+        grid.spacing = {std::max(unit, kLeastSpacing), std::max(unit, kLeastSpacing), std::max(unit, kLeastSpacing)};
         grid.origin = {origin, -origin, origin};
-        expectExact(grid, {{origin, -origin, origin}, 3}, tally);
+        expectExact(grid, {{origin, -origin, origin}, 3 * grid.spacing[0]}, tally);
         expectExact(grid, {{std::nextafter(origin, 2 * origin), -origin, origin}, std::abs(origin) * 0x1p-52}, tally);
     }
     EXPECT_GT(tally.on, 0U);

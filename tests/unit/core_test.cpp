@@ -111,8 +111,10 @@ TEST(Grids, BadOnesAreRefused) {
     grid.size[1] = 0;
     EXPECT_THAT(checkGrid(grid).error().text, HasSubstr("0 voxels along y"));
     grid = obliqueGrid();
-    grid.spacing[2] = 0;
-    EXPECT_THAT(checkGrid(grid).error().text, HasSubstr("spacing along z"));
+    for (const double spacing : {0.0, -1.0, 5e-324, 9e-10, 1.1e12, 1e308, kNan}) {
+        grid.spacing[2] = spacing;
+        EXPECT_THAT(checkGrid(grid).error().text, HasSubstr("spacing along z")) << spacing;
+    }
     grid = obliqueGrid();
     grid.direction = {1, 0, 0, 0, 1, 0, 1, 1, 0};
     EXPECT_THAT(textureFromWorld(grid).error().text, HasSubstr("singular"));
@@ -120,8 +122,26 @@ TEST(Grids, BadOnesAreRefused) {
     grid.direction[4] = kNan;
     EXPECT_THAT(checkGrid(grid).error().text, HasSubstr("direction"));
     grid = obliqueGrid();
-    grid.origin[0] = kNan;
-    EXPECT_THAT(checkGrid(grid).error().text, HasSubstr("origin"));
+    for (const double origin : {1.1e12, -1e300, kNan}) {
+        grid.origin[0] = origin;
+        EXPECT_THAT(checkGrid(grid).error().text, HasSubstr("origin")) << origin;
+    }
+}
+
+/// At both ends of what a spacing may be the way to the world leads back.
+TEST(Grids, TheFinestAndTheCoarsestCanBeInverted) {
+    for (const double spacing : {kLeastSpacing, kMostSpacing}) {
+        Grid grid = obliqueGrid();
+        grid.spacing = {spacing, spacing, spacing};
+        grid.origin = {};
+        const Result<Mat4> texture_from_world = textureFromWorld(grid);
+        ASSERT_TRUE(texture_from_world.ok());
+        const Vec3 there = transformPoint(worldFromTexture(grid), {0.25, 0.5, 1});
+        const Vec3 back = transformPoint(*texture_from_world, there);
+        EXPECT_NEAR(back[0], 0.25, 1e-9);
+        EXPECT_NEAR(back[1], 0.5, 1e-9);
+        EXPECT_NEAR(back[2], 1, 1e-9);
+    }
 }
 
 /// 2^64 bytes of voxels are 0 to whoever counts them in 64 bits.
@@ -320,6 +340,15 @@ TEST(ItemConstants, TakeAValueToTheTransferFunctionsDomain) {
     EXPECT_EQ(constants.scalarScale, 0.25F);
     EXPECT_EQ(constants.scalarBias, 0.75F);
     EXPECT_EQ(constants.threshold, 0.25F);
+}
+
+TEST(ItemConstants, AreSingleWhereFloatsHoldThem) {
+    EXPECT_TRUE(areSingle(itemConstants(1, 0, {0, 255}, 0.5)));
+    EXPECT_TRUE(areSingle(itemConstants(-1e30, 1e38, {-1e37, 1e37}, 0.5)));
+    EXPECT_TRUE(areSingle(itemConstants(1, 0, {-3e38, 3e38}, 0.5))) << "denormal";
+    EXPECT_FALSE(areSingle(itemConstants(1e39, 0, {0, 1}, 0.5))) << "infinite";
+    EXPECT_FALSE(areSingle(itemConstants(1, 1e39, {0, 1}, 0.5))) << "infinite for all";
+    EXPECT_FALSE(areSingle(itemConstants(1, 0, {0, 1e300}, 0.5))) << "all values are one";
 }
 
 TEST(Boundaries, MergedRangesOfTheFaces) {

@@ -24,6 +24,8 @@ concept BatchSide = requires(const Side& side, const Item& item, const WideExten
     { side.checkExtent(extent, text) } -> std::same_as<Result<void>>;
     /// An item whose parts are not null. `text` says which it is.
     { side.checkItem(item, text) } -> std::same_as<Result<void>>;
+    /// Whether areSingle() of a checked item's constants.
+    { side.holdsValues(item) } -> std::same_as<bool>;
 };
 
 namespace detail {
@@ -67,6 +69,10 @@ Result<void> checkBatchItem(const ProjectionRow& projection, std::uint32_t sampl
     }
     VOXTACT_TRY(side.checkItem(item, which));
     VOXTACT_TRY(checkPoses(item, which));
+    if (!projection.certified && !side.holdsValues(item)) {
+        return refuse(which + ": single precision cannot tell the volume's values apart in the transfer function's "
+                              "domain, or cannot hold them; the projection conservative says what can be said");
+    }
     if (projection.voxelGrid) {
         const Grid& grid = item.volume->grid();
         const std::uint64_t length = dominantSide(grid, samplesPerVoxel);

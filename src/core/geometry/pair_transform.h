@@ -15,5 +15,8 @@ namespace voxtact {
 /// what the sampler returns (a texel in [0,1]) or, for exact filtering, the integer behind it. storedUnit is 0.
 [[nodiscard]] shader::ItemConstants itemConstants(double valueSlope, double valueIntercept, const ValueRange& domain,
                                                   double threshold) noexcept;
+/// Whether single precision holds them: values that are far too large for the domain become infinite, and in one that
+/// is far too wide for them all are the same.
+[[nodiscard]] bool areSingle(const shader::ItemConstants& constants) noexcept;
 
 } // namespace voxtact

@@ -54,7 +54,7 @@ Result<Mat4> inverse(const Mat4& b_from_a) {
         }
     }
     if (largest == 0 || residual > 1e-6) {
-        return refuse("the matrix is singular");
+        return refuse("the matrix is singular, as far as doubles can tell");
     }
     if (isAffine(b_from_a)) { // of a pose it is a pose: rounding must not get into the last row
         out[3] = out[7] = out[11] = 0;

@@ -162,9 +162,6 @@ Result<void> takeVoxels(ByteReader& reader, StoredImage& image, bool swapped) {
 }
 
 Result<void> setSteps(Grid& grid, const AffineSteps& affine, const std::filesystem::path& path) {
-    // A picometre and a million kilometres: nothing that a mesh can meet lies beyond.
-    constexpr double kNearest = 1e-9;
-    constexpr double kFarthest = 1e12;
     constexpr double kRounding = 1e-6; // of a unit vector in floats
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const Vec3& direction = affine.directions[axis];
@@ -174,11 +171,11 @@ Result<void> setSteps(Grid& grid, const AffineSteps& affine, const std::filesyst
         if (!std::isfinite(length) || !std::isfinite(affine.origin[axis])) {
             return cannotRead(path, "its header is damaged: its spacing, direction or origin is not finite");
         }
-        if (!(length >= kNearest && length <= kFarthest)) {
+        if (!(length >= kLeastSpacing && length <= kMostSpacing)) {
             return cannotRead(path, "its voxels along axis " + std::to_string(axis) + " are " + number(length) +
                                         " mm apart, which cannot be; mend its header");
         }
-        if (std::abs(affine.origin[axis]) > kFarthest) {
+        if (std::abs(affine.origin[axis]) > kMostSpacing) {
             return cannotRead(path, "its origin is " + number(affine.origin[axis]) +
                                         " mm away, which cannot be; mend its header");
         }

@@ -134,6 +134,7 @@ TEST(CertifiedText, APointProvesATouchWhereAllThatItMayBeIsOpaque) {
 }
 
 TEST(CertifiedText, TwoPointsProveATouchWhereSomethingOpaqueIsBetweenThemForCertain) {
+    constexpr double kRounding = 1e-5; // the shader adds in single precision
     std::mt19937_64 random(testSeed());
     const OneBand band;
     std::array<std::size_t, 2> answers{};
@@ -152,7 +153,7 @@ TEST(CertifiedText, TwoPointsProveATouchWhereSomethingOpaqueIsBetweenThemForCert
         const bool proves = certifiedCrossingProves(band.table(), samples, cell.margin);
         const double lo = static_cast<double>(samples.lo) + cell.margin;
         const double hi = static_cast<double>(samples.hi) - cell.margin;
-        EXPECT_TRUE((lo < hi && lo <= 20.5 && hi >= 9.5) || !proves) << samples.lo << ", " << samples.hi;
+        EXPECT_TRUE((lo < hi + kRounding && lo <= 20.5 && hi >= 9.5) || !proves) << samples.lo << ", " << samples.hi;
         EXPECT_TRUE(proves || !(lo + 1e-2 < hi && lo < 20.49 && hi > 9.51)) << samples.lo << ", " << samples.hi;
         ++answers[proves ? 1 : 0];
     }

@@ -90,6 +90,13 @@ TEST_F(CpuBadInput, ThresholdsAndNullObjects) {
     EXPECT_THAT(refused([](auto&, auto& bad) { bad.transferFunction = nullptr; }).text, HasSubstr("null"));
 }
 
+TEST_F(CpuBadInput, DomainsInWhichFloatsTellNoValuesApart) {
+    const ControlPoint points[] = {{0, 0}, {1e300, 1}};
+    const cpu::TransferFunction wide = take(cpu::TransferFunction::create({points, {0, 1e300}}));
+    EXPECT_THAT(refused([&](auto&, auto& bad) { bad.transferFunction = &wide; }).text,
+                HasSubstr("batch item 0: single precision cannot tell"));
+}
+
 TEST_F(CpuBadInput, HostDataIsChecked) {
     MeshData mesh = makeFlat(0, 1, 0, 1, 0.5);
     mesh.indices[4] = 9;

@@ -426,6 +426,8 @@ TEST_F(CPictures, RefuseWhatTheCppInterfaceRefuses) {
     std::vector<vxt_clip_plane> planes(7, plane_);
     c_.clip_planes = planes.data();
     EXPECT_THAT(refused(), HasSubstr("7 clip planes"));
+    c_.clip_plane_count = SIZE_MAX;
+    EXPECT_THAT(refused(), HasSubstr("clip_planes: 18446744073709551615 are too many"));
     c_.clip_plane_count = 0;
     c_.clip_from_world[15] = std::nan("");
     EXPECT_THAT(refused(), HasSubstr("clip_from_world"));
@@ -433,6 +435,10 @@ TEST_F(CPictures, RefuseWhatTheCppInterfaceRefuses) {
     EXPECT_EQ(refused(), "scene: volume is null");
     const vxt_picture_view view = viewOf(*picture_);
     EXPECT_EQ(std::vector(view.rgba, view.rgba + view.bytes), before) << "a refusal changed the picture";
+    vxt_renderer* none = nullptr;
+    for (const int format : {0x7fffffff, -1, 185}) { // which no driver may be asked about
+        EXPECT_EQ(vxt_renderer_create(context_.get(), static_cast<VkFormat>(format), &none), VXT_ERROR_UNSUPPORTED);
+    }
     EXPECT_EQ(vxt_blocking_renderer_render(nullptr, &c_, 1, 1, nullptr, nullptr, picture_.get()),
               VXT_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(vxt_blocking_renderer_render(blocking_.get(), nullptr, 1, 1, nullptr, nullptr, picture_.get()),

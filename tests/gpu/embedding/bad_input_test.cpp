@@ -4,6 +4,7 @@
 #include "gpu_fixture.h"
 #include "interception.h"
 #include "motion_words.h"
+#include "raw_vulkan.h"
 #include "support/scenes.h"
 
 #include <gmock/gmock.h>
@@ -165,6 +166,40 @@ TEST_F(BadInputTest, WrappedObjectsAreChecked) {
     }
     volume.boundaryValues = ValueRange{200, 200};
     EXPECT_TRUE(Volume::wrap(context(), volume).ok());
+}
+
+/// A slope that no float holds gave counts of 0, and exact ones.
+TEST_F(BadInputTest, ValuesThatFloatsDoNotHold) {
+    WrappedVolume wrapped;
+    wrapped.view = volume_->view();
+    wrapped.format = VK_FORMAT_R8_UNORM;
+    wrapped.grid = unitGrid(4);
+    for (const double slope : {1e39, 1e300, 1e-300}) {
+        wrapped.slope = slope;
+        const Volume volume = take(Volume::wrap(context(), wrapped));
+        EXPECT_THAT(refused([&](Batch&, BatchItem& bad) { bad.volume = &volume; }).text,
+                    HasSubstr("batch item 0: single precision cannot tell"))
+            << slope;
+    }
+}
+
+/// Ends that wrap round to small ones.
+TEST_F(BadInputTest, WrappedMeshesThatNoBufferHolds) {
+    RawVulkan raw(gpu().device);
+    const VkBuffer buffer = raw.makeBuffer(4096, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT |
+                                                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT)
+                                .buffer;
+    const WrappedMesh good{.vertices = buffer, .vertexCount = 3, .indices = buffer, .triangleCount = 1};
+    EXPECT_TRUE(Mesh::wrap(context(), good).ok());
+    for (const bool storage : {false, true}) {
+        WrappedMesh bad = good;
+        bad.storage = storage;
+        bad.vertexOffset = ~VkDeviceSize{3};
+        EXPECT_THAT(Mesh::wrap(context(), bad).error().text, HasSubstr("beyond what a buffer can have"));
+        bad.vertexOffset = 0;
+        bad.indexOffset = ~VkDeviceSize{3};
+        EXPECT_THAT(Mesh::wrap(context(), bad).error().text, HasSubstr("beyond what a buffer can have"));
+    }
 }
 
 TEST_F(BadInputTest, ReadingTooEarlyIsAnError) {

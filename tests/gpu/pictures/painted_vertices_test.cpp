@@ -160,6 +160,19 @@ TEST_F(PaintedVerticesTest, RefusesWhatDoesNotFit) {
     const PaintedVertices few = take(PaintedVertices::upload(renderer(), queue(), std::vector<Colour>(3)));
     scene.paint.vertices = &few;
     refused("colours for 3 vertices, the mesh has 4", scene);
+    RawVulkan raw(gpu().device);
+    const WrappedMesh loose{.vertices = raw.makeBuffer(72, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT).buffer,
+                            .vertexCount = 7, // one that is not drawn
+                            .triangleCount = 2};
+    const Mesh wrapped = take(Mesh::wrap(context(), loose));
+    scene.paint.vertices = &painted;
+    scene.mesh = &wrapped;
+    refused("colours for 4 vertices, the mesh has 6", scene);
+    const MeshNormals normals = take(MeshNormals::upload(renderer(), queue(), makeFlat(0, 1, 0, 1, 0.5).view()));
+    scene.paint.what = Paint::Plain;
+    scene.normals = &normals;
+    refused("Scene::normals has 4 vertices, the wrapped mesh has 6", scene);
+    scene = scene_;
     const PaintedVertices recordedNowhere = take(PaintedVertices::create(renderer(), colours()));
     scene.paint.vertices = &recordedNowhere;
     const Result<Picture> made = blocking_->render(scene, kPaintedExtent);

@@ -255,6 +255,7 @@ TEST_F(RenderRefusalTest, Scenes) {
     refused(with([](Scene& s) { s.background[1] = 1.5; }), "background");
     refused(with([](Scene& s) { s.meshColour[0] = std::nan(""); }), "mesh's colour");
     refused(with([](Scene& s) { s.lighting.shininess = -1; }), "lighting");
+    refused(with([](Scene& s) { s.lighting.specular = 1e38; }), "outside [0, 1e+06]");
     refused(with([&](Scene& s) { s.bricks = &bricks; }), "Scene::bricks");
     refused(with([&](Scene& s) { s.normals = &normals; }), "without a mesh");
     refused(with([&](Scene& s) { s.transferFunction = &fine; }), "65536 samples");
