@@ -43,15 +43,14 @@ struct RenderBricksImpl;
 struct PaintedTrianglesImpl;
 struct PaintedVerticesImpl;
 
-/// Scalar -> opacity and colour.
+/// Scalar -> opacity and colour. Lengths are above 0.
 struct RenderTransferFunctionDesc {
     TransferFunctionDesc opacity{};            ///< the same as the detector's; at most 1024 entries
     std::span<const ColourPoint> colours = {}; ///< ascending values; constant outside; none: white
     /// The length of material that `opacity` is for, mm: a ray has absorbed that much after so long a way. Opacities
     /// above 0.999 count as 0.999.
-    double opacityUnit = 1; ///< as a Grid's spacing may be
-    double step =
-        0.5; ///< mm from one sample of a ray to the next; half a voxel is a good one; as a Grid's spacing may be
+    double opacityUnit = 1;
+    double step = 0.5; ///< mm from one sample of a ray to the next; half a voxel is a good one
 };
 
 /// What a Renderer is made for.
@@ -77,7 +76,7 @@ struct Lighting {
     /// 0..1: how dark a place of the volume is that is shut in. What is between it and `reach` mm, half-way
     /// between its normal and the way to the eye, shuts in; faces of a cut are open.
     double occlusion = 0;
-    double reach = 8; ///< mm; as a Grid's spacing may be
+    double reach = 8; ///< mm
     /// Where the border of the volume, a clipping plane or the near plane cuts through what is visible: light falls on
     /// the plane, all of it from the eye and without gloss, for two voxels of the longest spacing behind it, and goes
     /// over to the gradient in two more. false: the gradient at once, which is noise on such a face.

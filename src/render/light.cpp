@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/refuse.h"
 #include "core/base/text.h"
-#include "core/geometry/check_length.h"
 #include "render/matrix_rows.h"
 #include "render/render_impl.h"
 
@@ -62,6 +61,12 @@ vec4 floats(const Vec3& v, double w) {
 
 } // namespace
 
+Result<void> checkPositive(double value, const std::string& what) {
+    return value > 0 && std::isnormal(static_cast<float>(value))
+               ? Result<void>()
+               : refuse(what + " is " + number(value) + ", not above 0, or beyond single precision");
+}
+
 Result<void> checkLighting(const Lighting& lighting) {
     for (const double value :
          {lighting.ambient, lighting.diffuse, lighting.specular, lighting.shininess, lighting.side}) {
@@ -73,7 +78,7 @@ Result<void> checkLighting(const Lighting& lighting) {
         return refuse("the lighting has the occlusion " + number(lighting.occlusion) + ", outside [0, 1]");
     }
     if (lighting.occlusion > 0) {
-        VOXTACT_TRY(checkLength(lighting.reach, "the lighting's reach"));
+        VOXTACT_TRY(checkPositive(lighting.reach, "the lighting's reach"));
     }
     const double length = lengthOf(lighting.sideFrom);
     if (lighting.side > 0 && !(length > 0 && std::isfinite(length))) {

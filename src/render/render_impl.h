@@ -102,6 +102,9 @@ struct PaintedVerticesImpl : PaintWords {
     using PaintWords::PaintWords;
 };
 
+/// Refuses what is not above 0, or is more or less than single precision holds. `what` begins the error text.
+[[nodiscard]] Result<void> checkPositive(double value, const std::string& what);
+
 /// What is there of such words, for messages.
 struct PaintName {
     const char* words = ""; ///< "the bits of the painted triangles": plural

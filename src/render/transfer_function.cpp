@@ -4,7 +4,6 @@
 #include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
-#include "core/geometry/check_length.h"
 #include "core/transfer/table_extremes.h"
 #include "gpu/barriers.h"
 #include "gpu/debug.h"
@@ -38,8 +37,8 @@ Result<std::vector<float>> sampleChannel(const RenderTransferFunctionDesc& desc,
 }
 
 Result<void> setFunction(RenderTransferFunctionImpl& function, const RenderTransferFunctionDesc& desc) {
-    VOXTACT_TRY(checkLength(desc.step, "the step"));
-    VOXTACT_TRY(checkLength(desc.opacityUnit, "the opacity unit"));
+    VOXTACT_TRY(checkPositive(desc.step, "the step"));
+    VOXTACT_TRY(checkPositive(desc.opacityUnit, "the opacity unit"));
     if (desc.opacity.tableSize > kMostEntries) {
         return refuse("the transfer function's table has " + std::to_string(desc.opacity.tableSize) +
                       " entries, for pictures it may have " + std::to_string(kMostEntries));

@@ -48,8 +48,8 @@ struct CertifiedAsk {
     bool yesNo = false;
     std::optional<std::uint64_t> pairs{}; ///< nothing: not known, many
     std::uint32_t threads = 0;            ///< of the host; 0: one for each processor
-    bool measure =
-        true; ///< false: processes that must all choose the same ask, and a measurement may come out otherwise
+    /// false: many processes ask, which must choose alike, and a measurement may come out otherwise.
+    bool measure = true;
 
     /// The host has answered so few by the time that a device is open and has its pipelines.
     [[nodiscard]] bool isSmall() const { return pairs && *pairs < kManyPairs; }

@@ -2,7 +2,6 @@
 #include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
-#include "core/geometry/check_length.h"
 #include "core/geometry/glm_bridge.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -43,7 +42,10 @@ Result<void> checkGrid(const Grid& grid) {
         if (grid.size[axis] == 0) {
             return refuse(std::string("the image is empty: it has 0 voxels along ") + kAxes[axis]);
         }
-        VOXTACT_TRY(checkLength(grid.spacing[axis], std::string("the spacing along ") + kAxes[axis]));
+        if (!(grid.spacing[axis] >= kLeastSpacing && grid.spacing[axis] <= kMostSpacing)) {
+            return refuse(std::string("the spacing along ") + kAxes[axis] + " is " + number(grid.spacing[axis]) +
+                          " mm, it must be from " + number(kLeastSpacing) + " to " + number(kMostSpacing));
+        }
         if (!(std::abs(grid.origin[axis]) <= kMostSpacing)) {
             return refuse(std::string("the origin's ") + kAxes[axis] + " is " + number(grid.origin[axis]) +
                           " mm, it must be within " + number(kMostSpacing));

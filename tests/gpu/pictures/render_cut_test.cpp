@@ -402,7 +402,7 @@ TEST_F(RenderCutTest, Refusals) {
             s.lighting.occlusion = 1;
             s.lighting.reach = 0;
         },
-        "reach is 0 mm");
+        "reach is 0, not above 0");
     refused(
         [&](Scene& s) {
             s.lighting.side = 1;

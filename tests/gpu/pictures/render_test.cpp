@@ -283,6 +283,7 @@ TEST_F(RenderRefusalTest, Objects) {
     constexpr ColourPoint kDescending[] = {{1, {0, 0, 0}}, {0, {0, 0, 0}}};
     refusedFunction(with([](auto& d) { d.step = 0; }), "the step");
     refusedFunction(with([](auto& d) { d.opacityUnit = -1; }), "opacity unit");
+    refusedFunction(with([](auto& d) { d.opacityUnit = 1e-40; }), "single precision");
     refusedFunction(with([](auto& d) { d.opacity.tableSize = 1025; }), "1024");
     refusedFunction(with([](auto& d) { d.opacity.tableSize = 1; }), "at least 2");
     refusedFunction(with([](auto& d) { d.opacity.points = {}; }), "no control points");
