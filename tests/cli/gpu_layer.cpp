@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A Vulkan layer that calls every device a discrete GPU, so that a machine without one can be asked what the program
 // would do there.
-#include <vulkan/vk_layer.h>
-#include <vulkan/vulkan_core.h>
+#include "support/layer_link.h"
 
 #include <cstring>
 
@@ -29,15 +28,8 @@ template <class Function> void find(VkInstance instance, Function& function, con
 
 VkResult VKAPI_CALL createInstance(const VkInstanceCreateInfo* info, const VkAllocationCallbacks* allocation,
                                    VkInstance* instance) {
-    auto* link = static_cast<VkLayerInstanceCreateInfo*>(const_cast<void*>(info->pNext));
-    while (link->sType != VK_STRUCTURE_TYPE_LOADER_INSTANCE_CREATE_INFO || link->function != VK_LAYER_LINK_INFO) {
-        link = static_cast<VkLayerInstanceCreateInfo*>(const_cast<void*>(link->pNext));
-    }
-    nextProc = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
-    link->u.pLayerInfo = link->u.pLayerInfo->pNext;
-    PFN_vkCreateInstance create = nullptr;
-    find(VK_NULL_HANDLE, create, "vkCreateInstance");
-    const VkResult result = create(info, allocation, instance);
+    VkResult result = VK_SUCCESS;
+    nextProc = voxtact::test::createNext(info, allocation, instance, result);
     if (result == VK_SUCCESS) {
         find(*instance, nextProperties, "vkGetPhysicalDeviceProperties");
         find(*instance, nextProperties2, "vkGetPhysicalDeviceProperties2");

@@ -2,8 +2,7 @@
 // A Vulkan layer that lets calls fail when a test asks for it: by the file that VOXTACT_FAULT names. "lost" in it: the
 // next submission, and all after it on the same device, find the device lost. "surface": the next image that is shown
 // finds the surface lost. The file is gone when that has happened. The layer is between the program and the validation.
-#include <vulkan/vk_layer.h>
-#include <vulkan/vulkan_core.h>
+#include "support/layer_link.h"
 
 #include <cstdlib>
 #include <cstring>
@@ -15,6 +14,8 @@
 #include <unistd.h>
 
 namespace {
+
+using namespace voxtact::test;
 
 struct Device {
     PFN_vkGetDeviceProcAddr next = nullptr;
@@ -67,23 +68,10 @@ VkResult VKAPI_CALL queuePresent(VkQueue queue, const VkPresentInfoKHR* info) {
     return present(queue, info);
 }
 
-/// The part of a create info's chain that the loader has for layers.
-template <class Link> Link* linkOf(const void* chain, VkStructureType type) {
-    auto* link = static_cast<Link*>(const_cast<void*>(chain));
-    while (link != nullptr && !(link->sType == type && link->function == VK_LAYER_LINK_INFO)) {
-        link = static_cast<Link*>(const_cast<void*>(link->pNext));
-    }
-    return link;
-}
-
 VkResult VKAPI_CALL createInstance(const VkInstanceCreateInfo* info, const VkAllocationCallbacks* allocation,
                                    VkInstance* instance) {
-    auto* const link = linkOf<VkLayerInstanceCreateInfo>(info->pNext, VK_STRUCTURE_TYPE_LOADER_INSTANCE_CREATE_INFO);
-    const PFN_vkGetInstanceProcAddr next = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
-    link->u.pLayerInfo = link->u.pLayerInfo->pNext;
-    const auto create = reinterpret_cast<PFN_vkCreateInstance>(next(VK_NULL_HANDLE, "vkCreateInstance"));
-    const VkResult result = create(info, allocation, instance);
-    nextInstance = next;
+    VkResult result = VK_SUCCESS;
+    nextInstance = createNext(info, allocation, instance, result);
     return result;
 }
 
