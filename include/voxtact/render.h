@@ -61,8 +61,8 @@ struct RendererDesc {
 /// The most that a number of Lighting may be.
 inline constexpr double kMostLight = 1e6;
 
-/// How light falls: from the eye and from its side, on both sides of a surface (Blinn-Phong). Its numbers without a
-/// unit are from 0 to kMostLight.
+/// How light falls: from the eye and from its side, on both sides of a surface (Blinn-Phong). `ambient`, `diffuse`,
+/// `specular`, `shininess` and `side` are from 0 to kMostLight.
 struct Lighting {
     bool volume = true;    ///< by the gradient, from central differences; false: the colours as they are
     bool mesh = true;      ///< the same for meshes

@@ -72,8 +72,7 @@ bool isOfIntegers(VkFormat format) {
     }
 }
 
-/// Whether Vulkan 1.3 has it, and pictures could be of it: the others are compressed, or of several planes. A driver
-/// may not be asked about what is no format.
+/// A format of Vulkan 1.0, or one of the 16-bit ones of 1.3. A driver may not be asked about what is no format.
 bool isOnePlane(VkFormat format) {
     return (format > VK_FORMAT_UNDEFINED && format <= VK_FORMAT_ASTC_12x12_SRGB_BLOCK) ||
            format == VK_FORMAT_A4R4G4B4_UNORM_PACK16 || format == VK_FORMAT_A4B4G4R4_UNORM_PACK16;
