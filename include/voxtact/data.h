@@ -46,14 +46,14 @@ inline constexpr double kMostSpacing = 1e12; ///< also of an origin's coordinate
 /// Where the voxels of an image are. `direction` holds three columns, the unit vectors (LPS) along the index axes:
 /// component r of axis c is at [3*c + r], as in ITK's direction matrix. It may be oblique; it must not be singular.
 struct Grid {
-    std::array<std::uint32_t, 3> size{};                        ///< voxels along x, y, z; each at least 1
-    Vec3 spacing{1, 1, 1};                                      ///< mm; from kLeastSpacing to kMostSpacing
-    Vec3 origin{};                                              ///< mm; the *centre* of voxel (0,0,0)
+    std::array<std::uint32_t, 3> size{}; ///< voxels along x, y, z; each at least 1
+    Vec3 spacing{1, 1, 1};               ///< mm; from kLeastSpacing to kMostSpacing
+    Vec3 origin{};                       ///< mm, within kMostSpacing; the *centre* of voxel (0,0,0)
     std::array<double, 9> direction{1, 0, 0, 0, 1, 0, 0, 0, 1}; ///< columns: unit vectors along the index axes
 };
 
-/// Refuses an empty grid, one of more than 2^56 voxels, a spacing outside [kLeastSpacing, kMostSpacing], an origin
-/// farther off than kMostSpacing, a singular or non-finite direction.
+/// Refuses an empty grid, one of more than 2^56 voxels, a spacing outside [kLeastSpacing, kMostSpacing], by itself or
+/// times the length of its direction, an origin farther off than kMostSpacing, a singular or non-finite direction.
 [[nodiscard]] VOXTACT_API Result<void> checkGrid(const Grid& grid);
 /// From texture space to the world. Expects a grid that checkGrid() accepts.
 [[nodiscard]] VOXTACT_API Mat4 worldFromTexture(const Grid& grid) noexcept;

@@ -15,7 +15,7 @@ extern "C" {
 /// Where the voxels of an image are: voxtact::Grid. World is LPS, in millimetres.
 typedef struct vxt_grid {
     double spacing[3];   ///< mm; from 1e-9 to 1e12
-    double origin[3];    ///< mm; the centre of voxel (0,0,0)
+    double origin[3];    ///< mm, within 1e12; the centre of voxel (0,0,0)
     double direction[9]; ///< three columns, the unit vectors along the index axes; [3 * c + r]; not singular
     uint32_t size[3];    ///< voxels along x, y, z; each at least 1
     uint32_t reserved;   ///< 0

@@ -198,7 +198,7 @@ typedef struct vxt_clip_plane {
     double offset;    ///< along the normal, where that is of length 1
 } vxt_clip_plane;
 
-/// How light falls: voxtact::Lighting.
+/// How light falls: voxtact::Lighting. ambient, diffuse, specular, shininess and side are from 0 to 1e6.
 typedef struct vxt_lighting {
     size_t struct_size;  ///< sizeof
     double ambient;      ///< light from everywhere; default 0.25
@@ -208,7 +208,7 @@ typedef struct vxt_lighting {
     double side;         ///< what a second light adds; default 0
     double side_from[3]; ///< where it is: to the picture's right, up, towards the eye; default -0.55 0.6 0.6
     double occlusion;    ///< 0..1: how dark a place of the volume is that is shut in; default 0
-    double reach;        ///< how far off what shuts it in may be; default 8
+    double reach;        ///< how far off what shuts it in may be, mm; above 0; default 8
     uint32_t volume;     ///< on the volume, by its gradient; default 1
     uint32_t mesh;       ///< on meshes; default 1
     uint32_t faces;      ///< on faces of cuts as on planes; default 1

@@ -4,8 +4,6 @@
 #include "c/handles.h"
 #include "c/handles_render.h"
 
-#include <algorithm>
-
 using namespace voxtact;
 using namespace voxtact::c;
 
@@ -66,8 +64,11 @@ class SceneOf {
         }
         const std::span<const vxt_clip_plane> planes =
             toSpan(given_.clip_planes, given_.clip_plane_count, "clip_planes");
-        // The renderer refuses more; one more than it takes is enough for that.
-        for (const vxt_clip_plane& plane : planes.first(std::min(planes.size(), kMostClipPlanes + 1))) {
+        if (planes.size() > kMostClipPlanes) { // before they are read
+            refuse(ErrorCode::InvalidArgument, "the scene has " + std::to_string(planes.size()) +
+                                                   " clip planes, the most is " + std::to_string(kMostClipPlanes));
+        }
+        for (const vxt_clip_plane& plane : planes) {
             planes_.push_back({toVec3(plane.normal, "normal"), plane.offset});
         }
     }

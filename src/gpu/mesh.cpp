@@ -111,7 +111,7 @@ Result<void> checkStride(VkDeviceSize stride, VkDeviceSize offset, const char* t
     return stride < kPositionBytes || stride % 4 != 0 || offset % 4 != 0 ? Result<void>(refuse(text)) : Result<void>();
 }
 
-/// What the buffers of a wrapped mesh must have is a number of bytes.
+/// Refuses offsets and strides beyond 64 bits of bytes.
 Result<void> checkEnds(const WrappedMesh& wrapped) {
     constexpr VkDeviceSize kMost = std::numeric_limits<VkDeviceSize>::max() / 2;
     if (wrapped.vertexOffset > kMost || wrapped.indexOffset > kMost ||

@@ -72,18 +72,18 @@ bool isOfIntegers(VkFormat format) {
     }
 }
 
-/// A format of Vulkan 1.0, or one of the 16-bit ones of 1.3. A driver may not be asked about what is no format.
-bool isOnePlane(VkFormat format) {
+/// A format of Vulkan 1.0, or one of two with 16 bits of 1.3. A driver may not be asked about what is no format.
+bool mayBeAskedAbout(VkFormat format) {
     return (format > VK_FORMAT_UNDEFINED && format <= VK_FORMAT_ASTC_12x12_SRGB_BLOCK) ||
            format == VK_FORMAT_A4R4G4B4_UNORM_PACK16 || format == VK_FORMAT_A4B4G4R4_UNORM_PACK16;
 }
 
 Result<void> checkFormat(const ContextImpl& context, VkFormat format, VkFormatFeatureFlags needed, const char* use) {
     VkFormatProperties properties{};
-    if (isOnePlane(format)) {
+    if (mayBeAskedAbout(format)) {
         context.vk.GetPhysicalDeviceFormatProperties(context.physicalDevice, format, &properties);
     }
-    if (!isOnePlane(format) || (properties.optimalTilingFeatures & needed) != needed) {
+    if (!mayBeAskedAbout(format) || (properties.optimalTilingFeatures & needed) != needed) {
         return Error{ErrorCode::Unsupported, 0,
                      "the device cannot use VkFormat " + std::to_string(format) + " for " + use};
     }

@@ -126,14 +126,18 @@ TEST_F(CertifiedAutoTest, ARunInChunksGoesOnAsItBegan) {
     static_cast<void>(poses(1024));
     const Arguments first = detect({"--resume", path("run"), "--chunk", "400", "--shard", "1/2"});
     const Arguments second = detect({"--resume", path("run"), "--chunk", "400", "--shard", "2/2"});
-    EXPECT_EQ(run(first).status, 0);
+    const RunOptions noDriver{
+        .environment = {{"VK_ICD_FILENAMES", "/nonexistent"}, {"VK_DRIVER_FILES", "/nonexistent"}}};
+    EXPECT_EQ(run(first, noDriver).status, 0);
     const Ran onGpu = run(second, gpu());
     EXPECT_EQ(onGpu.status, 0) << onGpu.err;
     EXPECT_EQ(output({"merge", path("run")}), output(detect({"--count", "cpu"})));
     EXPECT_TRUE(measured().empty());
     // And the other way round: what began on a GPU needs one.
     EXPECT_EQ(run(detect({"--resume", path("other"), "--shard", "1/2"}), gpu()).status, 0);
-    EXPECT_EQ(run(detect({"--resume", path("other"), "--shard", "2/2"})).status, 0);
+    EXPECT_THAT(refused(1, detect({"--resume", path("other"), "--shard", "2/2"}), noDriver),
+                AllOf(HasSubstr("no Vulkan device"), HasSubstr("other' was begun by compute")));
+    EXPECT_EQ(run(detect({"--resume", path("other"), "--shard", "2/2"}), gpu()).status, 0);
     EXPECT_EQ(methodOf(output({"merge", path("other")})), "compute");
 }
 

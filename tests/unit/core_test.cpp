@@ -118,6 +118,14 @@ TEST(Grids, BadOnesAreRefused) {
     grid = obliqueGrid();
     grid.direction = {1, 0, 0, 0, 1, 0, 1, 1, 0};
     EXPECT_THAT(textureFromWorld(grid).error().text, HasSubstr("singular"));
+    // Their determinants are infinite, no number, and 0.
+    for (const double length : {1e110, 1e200, 1e-110}) {
+        grid = obliqueGrid();
+        for (double& element : grid.direction) {
+            element *= length;
+        }
+        EXPECT_THAT(checkGrid(grid).error().text, HasSubstr("the voxels along x are")) << length;
+    }
     grid = obliqueGrid();
     grid.direction[4] = kNan;
     EXPECT_THAT(checkGrid(grid).error().text, HasSubstr("direction"));

@@ -168,7 +168,7 @@ Result<AutoChoice> certifiedMethod(const device::Session& session, const AutoLim
     if (!limits.host) {
         return AutoChoice{CountingMethod::Compute, {}};
     }
-    if (ask.isSmall() || !isCertifyingGpu(session)) {
+    if (!isCertifyingGpu(session)) {
         return AutoChoice{CountingMethod::Cpu, {}};
     }
     if (!ask.measure) {

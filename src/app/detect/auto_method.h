@@ -48,10 +48,10 @@ struct CertifiedAsk {
     bool yesNo = false;
     std::optional<std::uint64_t> pairs{}; ///< nothing: not known, many
     std::uint32_t threads = 0;            ///< of the host; 0: one for each processor
-    /// false: many processes ask, which must choose alike, and a measurement may come out otherwise.
+    /// false: compute is taken on a GPU unmeasured, so that processes that share a run choose alike.
     bool measure = true;
 
-    /// The host has answered so few by the time that a device is open and has its pipelines.
+    /// Then it is the host's, and no device is opened for it: mostly the host has answered by the time that one is.
     [[nodiscard]] bool isSmall() const { return pairs && *pairs < kManyPairs; }
     static constexpr std::uint64_t kManyPairs = 1024; ///< as many as a submission has
 };
@@ -60,9 +60,8 @@ struct CertifiedAsk {
 [[nodiscard]] bool isCertifyingGpu(const device::Session& session);
 
 /// For the projection conservative, which only compute and cpu do, with the same answers. compute where the host may
-/// not be chosen, the host where few are asked or the device is no such GPU; else whichever answers more pairs per
-/// second, measured and remembered as above. The host, with a note, where a GPU cannot be measured or answers otherwise
-/// than the host.
+/// not be chosen, the host where the device is no such GPU; else whichever answers more pairs per second, measured and
+/// remembered as above. The host, with a note, where a GPU cannot be measured or answers otherwise than the host.
 [[nodiscard]] Result<AutoChoice> certifiedMethod(const device::Session& session, const AutoLimits& limits,
                                                  const CertifiedAsk& ask, const DeviceChoice& choice);
 

@@ -187,16 +187,18 @@ Outcome endOf(const Outcome& outcome, const std::vector<std::string>& notes) {
     return outcome;
 }
 
-/// `auto` is what a run began with, wherever it goes on.
-void goOnAlike(DetectOptions& options) {
+/// `auto` is what a run began with, wherever it goes on. Returns whether it has begun.
+bool goOnAlike(DetectOptions& options) {
     const std::optional<CountingMethod> begun = options.method.count ? std::nullopt : methodOfRun(options.chunks);
-    if (begun && (autoLimits(options).host || !rowOf(*begun).host)) {
-        options.method.count = begun;
+    if (!begun || (rowOf(*begun).host && !autoLimits(options).host)) {
+        return false;
     }
+    options.method.count = begun;
+    return true;
 }
 
 Outcome runInChunks(const CLI::App& parser, DetectOptions options, DetectInputs& inputs) {
-    goOnAlike(options);
+    const bool goesOn = goOnAlike(options);
     Result<RunFacts> facts = detectRunFacts(parser, options, readPaths(options));
     VOXTACT_TRY(facts);
     std::vector<std::string> notes;
@@ -206,6 +208,11 @@ Outcome runInChunks(const CLI::App& parser, DetectOptions options, DetectInputs&
         outcome = answerChunks(options, inputs, std::move(*facts), engine, notes);
         return {};
     });
+    if (!done.ok() && goesOn) {
+        return Error{done.error().code, done.error().vkResult,
+                     done.error().text + "; the run in " + folderText(options.chunks.folder) + " was begun by " +
+                         toString(*options.method.count)};
+    }
     VOXTACT_TRY(done);
     return endOf(outcome, notes);
 }

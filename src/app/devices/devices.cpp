@@ -27,7 +27,7 @@ cannot be used. Columns:
                                arithmetic is the host's where exactness rests on it (self-test)
   verdict                      what the self-test counted and compared, or why the method cannot be used
   pairs_per_s                  on a small scene; measured once and remembered, see --cache
-  auto                         1: what --count auto takes on this device
+  auto                         1: what --count auto takes on this device but in the projection conservative
 
 Example:
   voxtact devices --format text)";

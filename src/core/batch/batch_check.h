@@ -70,8 +70,8 @@ Result<void> checkBatchItem(const ProjectionRow& projection, std::uint32_t sampl
     VOXTACT_TRY(side.checkItem(item, which));
     VOXTACT_TRY(checkPoses(item, which));
     if (!projection.certified && !side.holdsValues(item)) {
-        return refuse(which + ": single precision cannot tell the volume's values apart in the transfer function's "
-                              "domain, or cannot hold them; the projection conservative says what can be said");
+        return refuse(which + ": single precision cannot hold the volume's values in the transfer function's domain; "
+                              "the projection conservative says what can be said");
     }
     if (projection.voxelGrid) {
         const Grid& grid = item.volume->grid();
@@ -84,8 +84,9 @@ Result<void> checkBatchItem(const ProjectionRow& projection, std::uint32_t sampl
 } // namespace detail
 
 /// Refuses null objects, poses and cameras that are not finite or not affine, a singular camera, a viewport of 0, a
-/// threshold outside [0,1], more pairs than 32 bits can number, and what the side refuses. The camera counts only where
-/// the projection has one. Returns the number of pairs.
+/// threshold outside [0,1], more pairs than 32 bits can number, values that floats do not hold, and what the side
+/// refuses. The camera counts only where the projection has one, the values only where it is not certified. Returns the
+/// number of pairs.
 template <class Batch, class Side>
 Result<std::uint32_t> checkBatch(Projection projection, std::uint32_t samplesPerVoxel, const Batch& batch,
                                  const Side& side) {

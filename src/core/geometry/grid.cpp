@@ -16,6 +16,8 @@ namespace {
 /// Below this, the unit axes are so nearly in one plane that positions across it are lost.
 constexpr double kSmallestDeterminant = 1e-6;
 
+constexpr const char* kAxes[] = {"x", "y", "z"};
+
 glm::dmat4 worldFromIndexGlm(const Grid& grid) {
     glm::dmat4 out(1.0);
     for (int axis = 0; axis < 3; ++axis) {
@@ -34,10 +36,35 @@ glm::dmat4 indexFromTextureGlm(const Grid& grid) {
     return glm::scale(shift, glm::dvec3(grid.size[0], grid.size[1], grid.size[2]));
 }
 
+/// Refuses axes that do not span space, and steps between voxels that are too short or long.
+Result<void> checkDirection(const Grid& grid) {
+    glm::dmat3 direction;
+    for (int c = 0; c < 3; ++c) {
+        for (int r = 0; r < 3; ++r) {
+            direction[c][r] = grid.direction[static_cast<std::size_t>(3 * c + r)];
+            if (!std::isfinite(direction[c][r])) {
+                return refuse("the direction matrix has an element that is not finite");
+            }
+        }
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        const double step = glm::length(direction[axis]) * grid.spacing[static_cast<std::size_t>(axis)];
+        if (!(step >= kLeastSpacing && step <= kMostSpacing)) {
+            return refuse(std::string("the voxels along ") + kAxes[axis] + " are " + number(step) +
+                          " mm apart, by spacing and direction; it must be from " + number(kLeastSpacing) + " to " +
+                          number(kMostSpacing));
+        }
+    }
+    if (!(std::abs(glm::determinant(direction)) >= kSmallestDeterminant)) {
+        return refuse("the direction matrix is singular (determinant " + number(glm::determinant(direction)) +
+                      "): the image's axes do not span space");
+    }
+    return {};
+}
+
 } // namespace
 
 Result<void> checkGrid(const Grid& grid) {
-    constexpr const char* kAxes[] = {"x", "y", "z"};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (grid.size[axis] == 0) {
             return refuse(std::string("the image is empty: it has 0 voxels along ") + kAxes[axis]);
@@ -56,20 +83,7 @@ Result<void> checkGrid(const Grid& grid) {
     if (std::uint64_t{grid.size[0]} * grid.size[1] > kMostVoxels / grid.size[2]) {
         return refuse("the image has more than 2^56 voxels");
     }
-    glm::dmat3 direction;
-    for (int c = 0; c < 3; ++c) {
-        for (int r = 0; r < 3; ++r) {
-            direction[c][r] = grid.direction[static_cast<std::size_t>(3 * c + r)];
-            if (!std::isfinite(direction[c][r])) {
-                return refuse("the direction matrix has an element that is not finite");
-            }
-        }
-    }
-    if (std::abs(glm::determinant(direction)) < kSmallestDeterminant) {
-        return refuse("the direction matrix is singular (determinant " + number(glm::determinant(direction)) +
-                      "): the image's axes do not span space");
-    }
-    return {};
+    return checkDirection(grid);
 }
 
 Mat4 worldFromIndex(const Grid& grid) noexcept {

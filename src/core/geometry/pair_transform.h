@@ -15,8 +15,7 @@ namespace voxtact {
 /// what the sampler returns (a texel in [0,1]) or, for exact filtering, the integer behind it. storedUnit is 0.
 [[nodiscard]] shader::ItemConstants itemConstants(double valueSlope, double valueIntercept, const ValueRange& domain,
                                                   double threshold) noexcept;
-/// Whether single precision holds them: values that are far too large for the domain become infinite, and in one that
-/// is far too wide for them all are the same.
+/// Whether single precision holds them: none is infinite, and the scale is not 0.
 [[nodiscard]] bool areSingle(const shader::ItemConstants& constants) noexcept;
 
 } // namespace voxtact

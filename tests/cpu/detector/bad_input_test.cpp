@@ -90,11 +90,11 @@ TEST_F(CpuBadInput, ThresholdsAndNullObjects) {
     EXPECT_THAT(refused([](auto&, auto& bad) { bad.transferFunction = nullptr; }).text, HasSubstr("null"));
 }
 
-TEST_F(CpuBadInput, DomainsInWhichFloatsTellNoValuesApart) {
+TEST_F(CpuBadInput, DomainsInWhichFloatsHoldNoValues) {
     const ControlPoint points[] = {{0, 0}, {1e300, 1}};
     const cpu::TransferFunction wide = take(cpu::TransferFunction::create({points, {0, 1e300}}));
     EXPECT_THAT(refused([&](auto&, auto& bad) { bad.transferFunction = &wide; }).text,
-                HasSubstr("batch item 0: single precision cannot tell"));
+                HasSubstr("batch item 0: single precision cannot hold"));
 }
 
 TEST_F(CpuBadInput, HostDataIsChecked) {

@@ -426,6 +426,8 @@ TEST_F(CPictures, RefuseWhatTheCppInterfaceRefuses) {
     std::vector<vxt_clip_plane> planes(7, plane_);
     c_.clip_planes = planes.data();
     EXPECT_THAT(refused(), HasSubstr("7 clip planes"));
+    c_.clip_plane_count = 1000;
+    EXPECT_THAT(refused(), HasSubstr("1000 clip planes"));
     c_.clip_plane_count = SIZE_MAX;
     EXPECT_THAT(refused(), HasSubstr("clip_planes: 18446744073709551615 are too many"));
     c_.clip_plane_count = 0;

@@ -178,7 +178,7 @@ TEST_F(BadInputTest, ValuesThatFloatsDoNotHold) {
         wrapped.slope = slope;
         const Volume volume = take(Volume::wrap(context(), wrapped));
         EXPECT_THAT(refused([&](Batch&, BatchItem& bad) { bad.volume = &volume; }).text,
-                    HasSubstr("batch item 0: single precision cannot tell"))
+                    HasSubstr("batch item 0: single precision cannot hold"))
             << slope;
     }
 }
