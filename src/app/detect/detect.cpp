@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "app/chunks/run_folder.h"
 #include "app/commands.h"
 #include "app/detect/auto_method.h"
 #include "app/detect/detect_chunks.h"
