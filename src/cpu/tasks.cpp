@@ -43,16 +43,16 @@ Task Tasks::at(std::uint64_t task) const noexcept {
 }
 
 void Tasks::run(ThreadPool& pool, const std::function<void(const Task&, std::uint32_t thread)>& body) const {
-    const auto threads = static_cast<std::uint32_t>(std::min<std::uint64_t>(pool.threads(), count_));
-    if (threads == 0) {
-        return;
-    }
     std::atomic<std::uint64_t> next{0};
-    pool.run(threads, [&](std::uint32_t thread) {
-        for (std::uint64_t task = next++; task < count_ && !isCancelled(cancel_); task = next++) {
+    const auto step = [&](std::uint32_t thread) {
+        const std::uint64_t task = next++;
+        const bool some = task < count_ && !isCancelled(cancel_);
+        if (some) {
             body(at(task), thread);
         }
-    });
+        return some;
+    };
+    pool.run(count_, step, WakeOthers::Predicted);
 }
 
 } // namespace voxtact::cpu

@@ -2,11 +2,20 @@
 #include "cpu/thread_pool.h"
 
 #include <algorithm>
+#include <chrono>
 #include <string>
 #include <system_error>
 #include <utility>
 
 namespace voxtact::cpu {
+
+namespace {
+
+/// About what it takes to wake a thread: 20 to 40 us. So who begins alone, and wakes others later, never takes more
+/// than twice as long as is needed.
+constexpr std::chrono::microseconds kWaking{30};
+
+} // namespace
 
 ThreadPool::ThreadPool(std::uint32_t threads) {
     try {
@@ -39,29 +48,56 @@ void ThreadPool::stop() noexcept {
     }
 }
 
-void ThreadPool::run(std::uint32_t threads, const std::function<void(std::uint32_t)>& body) {
-    const std::uint32_t others = std::min<std::uint32_t>(threads, this->threads()) - 1;
-    if (others > 0) {
-        {
-            const std::lock_guard lock(mutex_);
-            body_ = &body;
-            wanted_ = others;
-            running_ = others;
-            ++round_;
-        }
-        start_.notify_all();
+void ThreadPool::run(std::uint64_t pieces, const Step& step, WakeOthers when) {
+    if (pieces == 0) {
+        return;
     }
-    attempt(body, 0);
-    std::unique_lock lock(mutex_);
-    finished_.wait(lock, [this] { return running_ == 0; });
+    const auto others = static_cast<std::uint32_t>(std::min<std::uint64_t>(threads(), pieces)) - 1;
+    const bool alone = when == WakeOthers::Predicted && pieces <= brief_;
+    Clock::duration took{};
+    attempt([&] { took = lead(others, step, alone); });
+    const std::uint32_t joined = rest();
     if (thrown_ != nullptr) {
         std::rethrow_exception(std::exchange(thrown_, nullptr));
     }
+    brief_ = took * (joined + 1) < kWaking ? pieces : 0;
 }
 
-void ThreadPool::attempt(const std::function<void(std::uint32_t)>& body, std::uint32_t thread) noexcept {
+ThreadPool::Clock::duration ThreadPool::lead(std::uint32_t others, const Step& step, bool alone) {
+    if (others > 0 && !alone) {
+        wake(others, step);
+    }
+    const Clock::time_point start = Clock::now();
+    bool waits = others > 0 && alone;
+    while (step(0)) {
+        if (waits && Clock::now() - start >= kWaking) {
+            wake(others, step);
+            waits = false;
+        }
+    }
+    return Clock::now() - start;
+}
+
+std::uint32_t ThreadPool::rest() {
+    std::unique_lock lock(mutex_);
+    wanted_ = 0;
+    finished_.wait(lock, [this] { return running_ == 0; });
+    return std::exchange(joined_, 0);
+}
+
+void ThreadPool::wake(std::uint32_t others, const Step& step) {
+    {
+        const std::lock_guard lock(mutex_);
+        step_ = &step;
+        wanted_ = others;
+        ++round_;
+    }
+    start_.notify_all();
+}
+
+template <class Call> void ThreadPool::attempt(const Call& call) noexcept {
     try {
-        body(thread);
+        call();
     } catch (...) {
         const std::lock_guard lock(mutex_);
         if (thrown_ == nullptr) {
@@ -79,9 +115,14 @@ void ThreadPool::work(std::uint32_t thread) {
             return;
         }
         seen = round_;
-        const std::function<void(std::uint32_t)>& body = *body_;
+        ++joined_;
+        ++running_;
+        const Step& step = *step_;
         lock.unlock();
-        attempt(body, thread);
+        attempt([&] {
+            while (step(thread)) {
+            }
+        });
         lock.lock();
         if (--running_ == 0) {
             finished_.notify_one();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <exception>
@@ -11,9 +12,21 @@
 
 namespace voxtact::cpu {
 
+/// When a call's other threads are woken.
+enum class WakeOthers : std::uint8_t {
+    AtOnce,
+    /// Where the last call was done before anybody could have been woken, of no fewer pieces: once this one has taken
+    /// as long, and a piece is done. Else at once.
+    Predicted
+};
+
 /// Threads that wait for work between calls. The caller is one of them.
 class ThreadPool {
   public:
+    /// Does one of the pieces that are left on the thread of that number, 0 for the caller's; false: none was left.
+    /// Any number of threads call it at once.
+    using Step = std::function<bool(std::uint32_t thread)>;
+
     /// Throws std::system_error where the system has no more threads.
     explicit ThreadPool(std::uint32_t threads);
     ThreadPool(const ThreadPool&) = delete;
@@ -21,23 +34,33 @@ class ThreadPool {
     ~ThreadPool();
 
     [[nodiscard]] std::uint32_t threads() const noexcept { return static_cast<std::uint32_t>(workers_.size()) + 1; }
-    /// Calls `body(thread)` on `threads` of the pool's threads, numbered from 0 (the caller's), and waits for all. What
-    /// one of them throws, the first of several, is thrown then: no memory, say.
-    void run(std::uint32_t threads, const std::function<void(std::uint32_t)>& body);
+    /// Calls `step`, which has so many pieces to do, until none is left and all threads are at rest. A thread that is
+    /// not awake before the last piece is begun is not waited for. What one of them throws, the first of several, is
+    /// thrown then: no memory, say.
+    void run(std::uint64_t pieces, const Step& step, WakeOthers when = WakeOthers::AtOnce);
 
   private:
+    using Clock = std::chrono::steady_clock;
+
     void work(std::uint32_t thread);
-    void attempt(const std::function<void(std::uint32_t)>& body, std::uint32_t thread) noexcept;
+    /// The caller's part. Returns how long its pieces took.
+    Clock::duration lead(std::uint32_t others, const Step& step, bool alone);
+    void wake(std::uint32_t others, const Step& step);
+    /// Waits for those that have joined, and returns how many; from then on none does.
+    std::uint32_t rest();
+    template <class Call> void attempt(const Call& call) noexcept;
     void stop() noexcept;
 
     std::mutex mutex_;
     std::condition_variable start_;
     std::condition_variable finished_;
-    const std::function<void(std::uint32_t)>* body_ = nullptr;
+    const Step* step_ = nullptr;
     std::uint64_t round_ = 0;
-    std::uint32_t wanted_ = 0;  ///< threads of this round
-    std::uint32_t running_ = 0; ///< of them, those that have not finished
+    std::uint32_t wanted_ = 0; ///< threads that may join this round
+    std::uint32_t joined_ = 0;
+    std::uint32_t running_ = 0; ///< of those that have joined, the ones that are not at rest
     std::exception_ptr thrown_; ///< in this round
+    std::uint64_t brief_ = 0;   ///< pieces of the last call if it was done by the time that others are woken; else 0
     bool stopping_ = false;
     std::vector<std::thread> workers_;
 };

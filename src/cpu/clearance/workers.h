@@ -61,11 +61,13 @@ class Workers {
             return {};
         }
         std::atomic<std::size_t> next{0};
-        const auto threads = static_cast<std::uint32_t>(std::min<std::size_t>(pool_.threads(), answers.size()));
-        pool_.run(threads, [&](std::uint32_t thread) {
-            for (std::size_t i = next++; i < answers.size() && !cancel.seen(); i = next++) {
+        pool_.run(answers.size(), [&](std::uint32_t thread) {
+            const std::size_t i = next++;
+            const bool some = i < answers.size() && !cancel.seen();
+            if (some) {
                 fill(answers[i], memories_[thread]);
             }
+            return some;
         });
         return checkNotCancelled(cancel);
     }

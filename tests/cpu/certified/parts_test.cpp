@@ -8,11 +8,9 @@
 #include "cpu/raster/scalar_sample.h"
 #include "cpu/scenes/engine_fixture.h"
 #include "cpu/scenes/random_scene.h"
-#include "cpu/thread_pool.h"
 #include "voxtact/samples.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 
 namespace voxtact::test {
@@ -249,20 +247,6 @@ TEST(Clusters, HoldEveryTriangleOnce) {
         same.indices.insert(same.indices.end(), {0, 1, 2});
     }
     checkClusters(same);
-}
-
-TEST(ThreadPools, CallEveryThreadOnce) {
-    cpu::ThreadPool pool(4);
-    for (int round = 0; round < 500; ++round) {
-        const auto threads = static_cast<std::uint32_t>(1 + round % 4);
-        std::atomic<std::uint32_t> seen{0};
-        pool.run(threads, [&](std::uint32_t thread) { seen += 1U << (8 * thread); });
-        std::uint32_t expected = 0;
-        for (std::uint32_t thread = 0; thread < threads; ++thread) {
-            expected += 1U << (8 * thread);
-        }
-        ASSERT_EQ(seen.load(), expected);
-    }
 }
 
 } // namespace
