@@ -214,6 +214,26 @@ def test_labels(head, knife):
         found.closest
 
 
+def test_labels_are_taken_as_they_are(head):
+    labels = vx.read_labels(np.ones((3, 3, 3), np.uint8), affine=np.eye(4))
+    assert vx.read_labels(labels) is labels
+    assert vx.read_labels(labels, names={1: "one"}).names == {1: "one"}
+    with pytest.raises(vx.InvalidArgumentError, match="affine="):
+        vx.read_labels(labels, affine=np.eye(4))
+    with pytest.raises(TypeError, match="bogus"):
+        vx.read_labels(labels, bogus=3)
+    for names in ({"one": 1}, {1: 1}, {True: "one"}, {1.0: "one"}):
+        with pytest.raises(TypeError, match="names has"):
+            vx.read_labels(labels, names=names)
+
+
+def test_no_poses(scene, knife):
+    assert len(scene.detect(knife, []).count) == 0
+    assert len(scene.detect([(knife, []), (knife, np.eye(4))]).count) == 1
+    with pytest.raises(TypeError, match="generator"):
+        scene.detect(knife, (pose for pose in [np.eye(4)]))
+
+
 def test_bounds_of_clearances(scene, knife):
     far = placed((1000, 0, 0))
     beyond = scene.clearance(knife, far, maximum=5)

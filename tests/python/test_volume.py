@@ -298,6 +298,11 @@ def test_named_dimensions():
     turned = vx.read_volume(NamedArray(np.ascontiguousarray(array.T), ("x", "y", "z")), affine=oblique())
     same_place(turned, expected)
     np.testing.assert_array_equal(turned.array, expected.array)
+    same_place(vx.read_volume(NamedArray(np.ascontiguousarray(array.T), ("X", "Y", "Z")), affine=oblique()), expected)
+    same_place(vx.read_volume(NamedArray(array, ("slice", "row", "column")), affine=oblique()), expected)
+    for dims, axes in ((("z", "y", "x"), "xyz"), (("x", "y", "z"), "zyx"), (("time", "y", "x"), None), (("time", "y", "x"), "zyx")):
+        with pytest.raises(vx.InvalidArgumentError, match="dimensions are"):
+            vx.read_volume(NamedArray(array, dims), affine=oblique(), axes=axes)
     np.testing.assert_array_equal(vx.read_volume(NamedArray(array, ("time", "row", "column")), affine=oblique()).array, array)
     with pytest.raises(vx.InvalidArgumentError, match=r"dimensions are \('y', 'z', 'x'\)"):
         vx.read_volume(NamedArray(array, ("y", "z", "x")), affine=oblique())
@@ -462,3 +467,39 @@ def test_names_that_mean_something_else(tmp_path, knife):
     with pytest.raises(vx.InvalidArgumentError, match="frame="):
         vx.read_volume("builtin:head:16", frame=3)
     assert not list(tmp_path.iterdir())
+
+
+def test_what_nibabel_cannot_place(tmp_path):
+    nibabel = pytest.importorskip("nibabel")
+    path = tmp_path / "unset.nii"
+    nibabel.save(nibabel.Nifti1Image(noise(), None), path)
+    assert "qform and sform are unset" in vx.read_volume(path).notes[0]
+    volume = vx.read_volume(nibabel.load(path))
+    assert "qform and sform are unset" in volume.notes[0]
+    same_place(volume, vx.read_volume(path))
+    with pytest.raises(vx.InvalidArgumentError, match="no affine"):
+        vx.read_volume(nibabel.Nifti1Image(noise(), None))
+    with pytest.raises(vx.InvalidArgumentError, match=r"shape \(3, 4, 5, 1, 2\)"):
+        vx.read_volume(nibabel.Nifti1Image(noise(shape=(3, 4, 5, 1, 2)), np.eye(4)), frame=1)
+
+
+def test_bits_of_vtk():
+    vtk = pytest.importorskip("vtkmodules.vtkCommonDataModel")
+    image = vtk.vtkImageData()
+    image.SetDimensions(3, 4, 5)
+    image.AllocateScalars(1, 1)  # VTK_BIT
+    with pytest.raises(vx.InvalidArgumentError, match="bits"):
+        vx.read_volume(image)
+
+
+def test_paths_in_a_list(tmp_path):
+    for affine in (None, np.eye(4)):
+        for paths in (["a.dcm", "b.dcm"], [tmp_path / "a.dcm"], (b"a.dcm",)):
+            with pytest.raises(TypeError, match="folder"):
+                vx.read_volume(paths, affine=affine)
+
+
+@pytest.mark.filterwarnings("error")
+def test_an_affine_beyond_measure():
+    with pytest.raises(vx.InvalidArgumentError):
+        vx.read_volume(noise(), affine=np.diag([1e200, 1, 1, 1]))

@@ -118,7 +118,8 @@ Result<void> checkMotionChunks(const MotionOptions& options) {
     return checkChunkOptions(
         options.chunks, options.output,
         {{options.poses == "-", "--poses -", "who goes on with the run reads the poses again; put them into a file"},
-         {options.timing, "--timing", "its chunks are done at different times, perhaps by different machines"}});
+         {options.timing, "--timing", "its chunks are done at different times, perhaps by different machines"},
+         {options.device.validate, "--validate", "its messages decide on a whole run; validate a short one without"}});
 }
 
 Outcome runMotionChunks(const CLI::App& parser, const MotionOptions& options, const MotionInputs& inputs,

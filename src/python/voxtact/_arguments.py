@@ -54,19 +54,26 @@ def told(progress: Progress, pairs: int) -> Iterator[Optional[Callable[[int, int
             bar.close()
 
 
+def _poses(given: Any) -> npt.NDArray[np.float64]:
+    """Of a mesh. An empty list is none."""
+    if hasattr(given, "__next__"):
+        raise TypeError(f"poses is a {type(given).__name__}; a list of them or an array is needed, (N,4,4) or (4,4)")
+    return np.zeros((0, 4, 4)) if isinstance(given, (list, tuple)) and len(given) == 0 else numbers(given, "poses")
+
+
 def asked(mesh: Any, poses: Any) -> tuple[Any, Any]:
     """What the compiled part takes: a mesh and its poses, or a list of such pairs."""
     if isinstance(mesh, Mesh):
         if poses is None:
             raise TypeError("poses are missing: (N,4,4) or (4,4), world_from_object, row by row, mm, LPS")
-        return mesh._core, numbers(poses, "poses")
+        return mesh._core, _poses(poses)
     if poses is None and isinstance(mesh, Sequence) and not isinstance(mesh, (str, bytes)):
         pairs: list[tuple[Any, Any]] = []
         for one in mesh:
             if not (isinstance(one, Sequence) and len(one) == 2 and isinstance(one[0], Mesh)):
                 raise TypeError(f"item {len(pairs)} of the list is no pair (mesh, poses) with a voxtact.Mesh, as "
                                 "voxtact.read_mesh() makes it")
-            pairs.append((one[0]._core, numbers(one[1], "poses")))
+            pairs.append((one[0]._core, _poses(one[1])))
         return pairs, None
     raise TypeError(f"mesh is a {type(mesh).__name__}; voxtact.read_mesh() makes a voxtact.Mesh of it")
 

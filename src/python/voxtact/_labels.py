@@ -85,13 +85,21 @@ def read_label_names(path: Union[str, os.PathLike[str]]) -> dict[int, str]:
     return core.read_label_names(encoded(path))
 
 
+def _checked(names: Optional[dict[int, str]]) -> Optional[dict[int, str]]:
+    for number, name in ({} if names is None else names).items():
+        if isinstance(number, (bool, str)) or not hasattr(number, "__index__") or not isinstance(name, str):
+            raise TypeError(f"names has {number!r}: {name!r}; it is a dict of numbers and names")
+    return names
+
+
 def read_labels(source: Any, *, names: Union[None, dict[int, str], str, os.PathLike[str]] = None,
                 **options: Any) -> Labels:
     """A label map: whatever `read_volume` reads, with whole numbers, on a grid of its own.
 
     names: what the labels are called, as a dict or a file (see `read_label_names`).
     """
-    known = names if names is None or isinstance(names, dict) else read_label_names(names)
+    known = _checked(names) if names is None or isinstance(names, dict) else read_label_names(names)
     if isinstance(source, Labels):
+        read_volume(source.volume, **options)  # which has nothing to say to it
         return source if known is None else Labels(source.volume, known)
     return Labels(read_volume(source, **options), known)

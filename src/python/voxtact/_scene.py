@@ -135,7 +135,7 @@ class Scene:
 
     # Changes
 
-    def edit(self, *, ball: Optional[Sequence[float]] = None, box: Optional[Sequence[int]] = None,
+    def edit(self, *, ball: Optional[npt.ArrayLike] = None, box: Optional[Sequence[int]] = None,
              value: Optional[float] = None, at: Optional[Sequence[int]] = None,
              voxels: Optional[npt.ArrayLike] = None) -> None:
         """Changes voxels; the next answer has seen it. One of:

@@ -138,14 +138,19 @@ def _in_z_y_x(array: npt.NDArray[Any], axes: Optional[str]) -> npt.NDArray[Any]:
     return array.T if axes == "xyz" else array
 
 
-def _named_axes(source: Any) -> Optional[str]:
-    """The order of an array whose dimensions have names, as xarray's have: where they are x, y and z."""
+def _named_axes(source: Any, axes: Optional[str]) -> Optional[str]:
+    """`axes`, or the order of an array whose dimensions have names, as xarray's have: where some are x, y or z."""
     names = getattr(source, "dims", None)
-    if not isinstance(names, tuple) or set(names) != {"x", "y", "z"}:
-        return None
-    order = "".join(names)
-    if order not in ("zyx", "xyz"):
-        raise InvalidArgumentError(f"the array's dimensions are {names}; transpose it to ('z', 'y', 'x')")
+    if not isinstance(names, tuple):
+        return axes
+    order = "".join(str(name).lower() for name in names)
+    spatial = sum(str(name).lower() in ("x", "y", "z") for name in names)
+    if spatial == 0:
+        return axes
+    if spatial < 3 or order not in ("zyx", "xyz"):
+        raise InvalidArgumentError(f"the array's dimensions are {names}; rename or transpose it to ('z', 'y', 'x')")
+    if axes not in (None, order):
+        raise InvalidArgumentError(f"axes={axes!r}, but the array's dimensions are {names}")
     return order
 
 
@@ -195,8 +200,8 @@ def _grid(affine: npt.ArrayLike, space: Space) -> tuple[npt.NDArray[np.float64],
     check_space(space, "space")
     if space == "ras":
         matrix = LPS_FROM_RAS @ matrix
-    spacing = np.sqrt((matrix[:3, :3] ** 2).sum(axis=0))
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
+        spacing = np.sqrt((matrix[:3, :3] ** 2).sum(axis=0))
         direction = matrix[:3, :3] / spacing
     if not (spacing > 0).all():
         raise InvalidArgumentError(f"affine has a step of 0 mm along an axis: {spacing.tolist()}")
@@ -228,10 +233,21 @@ def _volume_of_array(array: Any, affine: npt.ArrayLike, space: Space, axes: Opti
 # Objects of other libraries, by what they have
 
 
+def _says_no_place(header: Any) -> bool:
+    """Whether it is that of a NIfTI file with neither qform nor sform."""
+    return "sform_code" in header and int(header["sform_code"]) == 0 and int(header["qform_code"]) == 0
+
+
 def _of_nibabel(image: Any, frame: Optional[int]) -> Volume:
+    if image.affine is None:
+        raise InvalidArgumentError("the image has no affine, so nothing says where its voxels are; hand over its array "
+                                   "with affine=")
     array = np.asanyarray(image.dataobj)
     while array.ndim > 3 and array.shape[-1] == 1:
         array = array[..., 0]
+    if array.ndim > 4:
+        raise InvalidArgumentError(f"the image has the shape {array.shape}; three dimensions are needed, or four and "
+                                   "frame=")
     if array.ndim == 4:
         if frame is None:
             raise InvalidArgumentError(f"the image holds {array.shape[3]} volumes: choose one with frame=")
@@ -241,6 +257,9 @@ def _of_nibabel(image: Any, frame: Optional[int]) -> Volume:
     elif frame:
         raise InvalidArgumentError(f"frame={frame}: the image holds one volume, counted from 0")
     notes: list[str] = []
+    if _says_no_place(image.header):
+        notes.append("the image does not say how the patient lies (qform and sform are unset); it is placed by the "
+                     "affine that nibabel gives it")
     affine = np.array(image.affine, dtype=np.float64)
     units = getattr(image.header, "get_xyzt_units", lambda: ("mm",))()[0]
     factor = _MILLIMETRES.get(units, 1.0)
@@ -287,6 +306,9 @@ def _of_vtk_image(image: Any, space: Space) -> Volume:
     scalars = image.GetPointData().GetScalars()
     if scalars is None:
         raise InvalidArgumentError("the vtkImageData has no scalars")
+    if scalars.GetDataTypeAsString() == "bit":
+        raise InvalidArgumentError("the vtkImageData's scalars are bits, which VTK cannot hand over; cast them "
+                                   "(vtkImageCast)")
     if scalars.GetNumberOfComponents() != 1:
         raise InvalidArgumentError("the vtkImageData has several numbers per voxel; one is needed")
     x, y, z = image.GetDimensions()
@@ -301,6 +323,9 @@ def _of_vtk_image(image: Any, space: Space) -> Volume:
 
 def _refuse_what_is_no_array(source: Any) -> None:
     """Raises TypeError for a thing of which numpy makes no array but one of objects, as it does of nearly everything."""
+    if isinstance(source, (list, tuple)) and source and all(isinstance(one, (str, bytes, os.PathLike)) for one in source):
+        raise TypeError("no volume can be made of a list of paths: give one, of a DICOM series that of the folder that "
+                        "holds it")
     is_array = (hasattr(source, "__array__") or hasattr(source, "__array_interface__") or hasattr(source, "__buffer__")
                 or isinstance(source, (list, memoryview)))
     if is_array and (isinstance(source, np.ndarray) or array_of(source, "the array").dtype != object):
@@ -308,7 +333,8 @@ def _refuse_what_is_no_array(source: Any) -> None:
     of_what = isinstance(source, list) and len(source) > 0
     kind = type(source[0]) if of_what else type(source)
     raise TypeError(f"no volume can be made of a {'list of ' if of_what else ''}{kind.__module__}.{kind.__qualname__}: give a "
-                    "path, an array with affine=, or an image of nibabel, SimpleITK, itk or VTK")
+                    "path (of a DICOM series that of its folder), an array with affine=, or an image of nibabel, "
+                    "SimpleITK, itk or VTK")
 
 
 def read_volume(source: Any, *, affine: Optional[npt.ArrayLike] = None, space: Optional[Space] = None,
@@ -320,7 +346,8 @@ def read_volume(source: Any, *, affine: Optional[npt.ArrayLike] = None, space: O
           the program's builtins. `frame` chooses one of a 4D file, `series` a SeriesInstanceUID.
         - an array of three dimensions with `affine`, (4,4): it takes voxel numbers (x, y, z, 1) to the world in mm, to
           RAS as nibabel's do, or to LPS with ``space="lps"``. The array is indexed [z, y, x], in C order. One that is in
-          another order is refused until you say `axes`: "xyz" (nibabel's) or "zyx".
+          another order is refused until you say `axes`: "xyz" (nibabel's) or "zyx". Dimensions that are named x, y and
+          z, as xarray's may be, say it themselves; coordinates are not looked at.
         - a nibabel image (4D: with `frame`), an image of SimpleITK or itk, or a vtkImageData (which knows no space: LPS,
           unless ``space="ras"``).
 
@@ -366,4 +393,4 @@ def read_volume(source: Any, *, affine: Optional[npt.ArrayLike] = None, space: O
     if affine is None:
         raise InvalidArgumentError("an array needs affine=, (4,4), voxel numbers (x, y, z, 1) to mm; np.eye(4) for "
                                    "voxels of 1 mm with the first one at the origin")
-    return _volume_of_array(source, affine, space or "ras", axes or _named_axes(source), "array")
+    return _volume_of_array(source, affine, space or "ras", _named_axes(source, axes), "array")
