@@ -194,6 +194,14 @@ TEST_F(BenchTest, BatchesOfEverySizeAndVerified) {
     EXPECT_LT(cut["rows"].size(), 6 * sizes.size()) << "all sizes, 100000 poses in 10 ms";
     EXPECT_THAT(result["notes"].dump(), Not(HasSubstr("are left out")));
     EXPECT_THAT(cut["notes"].dump(), HasSubstr(" are left out, as they do not fit in --time-limit"));
+    // Not even of the smallest batch.
+    const Json few =
+        json({"bench", "--batches", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:300", "--opacity",
+              "40:0,80:1", "--number", "1", "--time-limit", "0.1", "--repetitions", "100000"});
+    for (const Json& row : few["rows"]) {
+        EXPECT_LT(row["samples"], 100'000) << row;
+    }
+    EXPECT_THAT(few["notes"].dump(), HasSubstr("rows of fewer than 100000 samples"));
 }
 
 TEST_F(BenchTest, WhereNothingTouchesANoteSaysSo) {

@@ -198,6 +198,9 @@ TEST_F(ChunksTest, MotionsAreTheSame) {
     EXPECT_THAT(refused(2, {"motion", "--volume", "builtin:head:16", "--mesh", "builtin:scalpel:100", "--poses",
                             path("poses.txt"), "--resume", path("run"), "--timing"}),
                 HasSubstr("--timing: not with --resume"));
+    EXPECT_THAT(refused(2, {"motion", "--volume", "builtin:head:16", "--mesh", "builtin:scalpel:100", "--poses",
+                            path("poses.txt"), "--resume", path("run"), "--count", "compute", "--validate"}),
+                HasSubstr("--validate: not with --resume"));
     EXPECT_FALSE(fs::exists(path("run")));
 }
 

@@ -75,6 +75,13 @@ TEST_F(DetectTest, MethodsAgree) {
     EXPECT_LT(hits, 180U);
 }
 
+TEST_F(DetectTest, ThreadsAreOfTheHost) {
+    const Ran ran = run(detect({"--count", "atomic", "--threads", "2"}));
+    EXPECT_EQ(ran.status, 0);
+    EXPECT_THAT(ran.err, HasSubstr("note: --threads 2 is not used"));
+    EXPECT_THAT(run(detect({"--count", "cpu", "--threads", "2"})).err, Not(HasSubstr("--threads")));
+}
+
 TEST_F(DetectTest, BatchesOfAnySizeGiveTheSameRows) {
     const std::string file = poses(50);
     const std::string all = output(detect({"--poses", file, "--mesh", "builtin:ellipsoid:500"}));

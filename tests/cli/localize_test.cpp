@@ -46,6 +46,11 @@ TEST_F(LocalizeCommandTest, WaysOfTheViewAgreeAndMissWhatIsCertified) {
     EXPECT_EQ(ways[3]["samples"], 6);
 }
 
+TEST_F(LocalizeCommandTest, WhereNothingTouchesNothingAgrees) {
+    writeText(path("away.txt"), "1 0 0 1000 0 1 0 0 0 0 1 0 0 0 0 1\n");
+    EXPECT_TRUE(Json::parse(output(localize({"--format", "json", "--poses", path("away.txt")})))["agrees"].is_null());
+}
+
 TEST_F(LocalizeCommandTest, CsvHasARowAWay) {
     const auto lines = linesOf(output(localize({"--only-pose", "3"})));
     ASSERT_GT(lines.size(), 6U);

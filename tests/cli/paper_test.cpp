@@ -100,7 +100,7 @@ TEST_F(PaperTest, MeasuresEveryMethodInEveryScene) {
         for (const auto& [method, row] : rows) {
             SCOPED_TRACE(kScenes[i] + " " + method);
             EXPECT_EQ(row["hits"], 2) << "every pose touches";
-            EXPECT_EQ(row["survivors"] == 1, method == "query-any");
+            EXPECT_EQ(row["survivors"].is_null(), method == "query-any") << "it does not count";
             for (const char* column : {"collision_ms", "rendering_ms", "total_ms", "overhead_percent"}) {
                 expectSpread(row["wall"][column], 2);
             }

@@ -171,13 +171,14 @@ TEST(LatencyOutputTest, SentencesSayOfHowManyTicksTheyAre) {
     result.rows.push_back(row(facts("compute", "count", true), 10));
     result.rows.back().engine.threads = 0;
     result.rows.back().engine.awaited = "polled";
+    result.rows.back().engine.recorded = "once";
     result.rows.push_back(row({.name = "empty submit", .threads = 0}, 500));
     std::ostringstream out;
     writeBench(out, io::Format::Json, {.mode = BenchMode::Latency, .number = 500}, result);
     EXPECT_THAT(out.str(), HasSubstr("cpu on 1 thread: p50 5.00 us, p99 5.00 us (500 ticks, 258 of them touch); "
-                                     "compute, polled: p50 5.00 us (10 ticks, 0 of them touch)"));
+                                     "compute, polled, recorded once: p50 5.00 us (10 ticks, 0 of them touch)"));
     EXPECT_THAT(out.str(), HasSubstr("no tick of these touches"));
-    EXPECT_THAT(out.str(), HasSubstr("all no: compute, polled (conservative count)\""));
+    EXPECT_THAT(out.str(), HasSubstr("all no: compute, polled, recorded once (conservative count)\""));
     result.rows[1].touching = 3;
     std::ostringstream other;
     writeBench(other, io::Format::Json, {.mode = BenchMode::Latency, .number = 500}, result);

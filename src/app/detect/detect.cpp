@@ -154,6 +154,11 @@ Result<void> withEngine(const DetectOptions& options, const DetectInputs& inputs
                 notes.push_back(choice->note);
             }
             if (!rowOf(choice->method).host) {
+                if (options.method.count && options.threads > 0) {
+                    notes.push_back("--threads " + std::to_string(options.threads) +
+                                    " is not used: the counting method " + toString(choice->method) +
+                                    " runs on the device");
+                }
                 Result<void> answered = withDeviceEngine(options, inputs, *session, choice->method, answer);
                 const device::VulkanDevice& device = session->device;
                 if (options.timing && (!device.hasTimestamps() || device.missedTimestamps())) {

@@ -92,7 +92,8 @@ void addTimeLimit(CLI::App& parser, double& seconds, const std::string& help) {
 
 Steps ShownSteps::steps() {
     return {[this](std::uint64_t total) { progress_.emplace(wanted_, title_, total); },
-            [this] { progress_->update(++done_); }, [this](const std::string& what) { progress_->doing(what); }};
+            [this](std::uint64_t steps) { progress_->update(done_ += steps); },
+            [this](const std::string& what) { progress_->doing(what); }};
 }
 
 Outcome measureOn(const DeviceChoice& choice, const std::function<Result<void>(const device::Session&)>& measure) {

@@ -113,7 +113,8 @@ Result<double> takeBlock(const BenchRun& run, KnownPoses& poses, const Engine& e
     return spent;
 }
 
-/// One size, by every engine that is still `alive`; those for which the next would take longer than `longest` ms end,
+/// One size, by every engine that is still `alive`, none of which has more than `longest` ms for a sample on average;
+/// those for which the next would take longer than `longest` ms end,
 /// and all where the host would take longer than `mostLearning` ms to say what must be answered.
 Result<void> measureSize(const BenchRun& run, KnownPoses& poses, Engines& alive, std::uint32_t batch, double longest,
                          double mostLearning) {
@@ -127,7 +128,8 @@ Result<void> measureSize(const BenchRun& run, KnownPoses& poses, Engines& alive,
     for (const Engine& engine : alive) {
         const std::size_t row = run.addRow(engine, "", batch);
         things.push_back(
-            {.take = [&, row](const Turn& turn) { return poses.take(engine, 0, turn.round > 0, rows[row]); }});
+            {.take = [&, row](const Turn& turn) { return poses.take(engine, 0, turn.round > 0, rows[row]); },
+             .limit = longest * run.settings.repetitions});
     }
     VOXTACT_TRY(run.time(things, {.repeats = run.settings.repetitions, .warmUp = true}));
     if (run.result.disagreement.empty()) {
@@ -227,7 +229,7 @@ Result<void> benchBatches(const BenchRun& run) {
         if (run.result.disagreement.empty()) {
             VOXTACT_TRY(measureSize(run, poses, alive, batch, longest, mostLearning));
         }
-        run.step();
+        run.step(1);
     }
     // After a disagreement nothing more is measured.
     std::erase_if(run.result.rows, [](const BenchRow& row) { return row.wall.empty(); });

@@ -124,10 +124,11 @@ std::vector<std::string> besideFcl(const BenchResult& result) {
 
 /// "compute, polled", "cpu on 2 threads"
 std::string engineText(const EngineFacts& engine) {
-    return engine.name + (engine.threads > 0 ? " on " + counted(engine.threads, "thread") : ", " + engine.awaited);
+    return engine.name + (engine.threads > 0 ? " on " + counted(engine.threads, "thread")
+                                             : ", " + engine.awaited + ", recorded " + engine.recorded);
 }
 
-/// "compute, polled: p50 80.1 us, p99 120 us (500 ticks, 258 of them touch)"
+/// "compute, polled, recorded once: p50 80.1 us, p99 120 us (500 ticks, 258 of them touch)"
 std::string ticksText(const BenchRow& row) {
     const std::optional<double> p99 = quantile(row.wall, 0.99, kForP99);
     return engineText(row.engine) + ": p50 " + shortNumber(*quantile(row.wall, 0.5)) +
@@ -197,6 +198,14 @@ void noteTicks(const BenchSettings& settings, const BenchResult& result, std::ve
     }
 }
 
+/// What must be known when reading the times of batches.
+void noteBatches(const BenchSettings& settings, const BenchResult& result, std::vector<std::string>& notes) {
+    if (std::ranges::any_of(result.rows, [&](const BenchRow& of) { return of.wall.size() < settings.repetitions; })) {
+        notes.push_back(concat("rows of fewer than ", counted(settings.repetitions, "sample"),
+                               ": the engine's share of --time-limit was used up"));
+    }
+}
+
 } // namespace
 
 void writeBench(std::ostream& out, io::Format format, const BenchSettings& settings, const BenchResult& result) {
@@ -208,6 +217,9 @@ void writeBench(std::ostream& out, io::Format format, const BenchSettings& setti
     output.notes = result.notes;
     output.sentences = ticks ? soonestTicks(result) : besideFcl(result);
     const auto touches = [](const BenchRow& of) { return of.touching > 0 || of.contacts > 0; };
+    if (mode == BenchMode::Batches) {
+        noteBatches(settings, result, output.notes);
+    }
     if (ticks) {
         noteTicks(settings, result, output.notes);
     } else if (!result.rows.empty() && std::ranges::none_of(result.rows, touches)) {

@@ -14,7 +14,7 @@ struct BenchRun {
     Work work; ///< without poses
     const Engines& engines;
     double limit; ///< ms of the samples of all engines
-    const std::function<void()>& step;
+    const std::function<void(std::uint64_t)>& step;
     BenchResult& result;
 
     /// A row for an engine; returns its number.

@@ -101,7 +101,7 @@ Result<void> checkFragments(const CompareRun& run) {
             checked->counted = raster.front().counts[index];
         }
         result.fragmentChecks.push_back(std::move(*checked));
-        run.step();
+        run.step(1);
     }
     result.oracleMilliseconds = milliseconds / static_cast<double>(sample.size());
     result.verdicts.push_back(judgeFragments(result.fragmentChecks));
@@ -261,7 +261,7 @@ Result<void> checkCounts(const CompareRun& run) {
     if (touchingPoses(run.result.counts).empty()) {
         run.result.notes.emplace_back(kNothingTouches);
     }
-    run.step();
+    run.step(1);
     return {};
 }
 

@@ -104,7 +104,7 @@ struct CompareRun {
     const Scene& scene;
     const Engines& engines;
     CompareResult& result;
-    const std::function<void()>& step;
+    const std::function<void(std::uint64_t)>& step;
 
     /// Whether a verdict has failed, which ends it.
     [[nodiscard]] bool ended() const { return result.firstFailure() != nullptr && !settings.keepGoing; }

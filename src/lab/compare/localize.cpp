@@ -82,7 +82,7 @@ Result<void> findOne(const Engine& engine, const Work& work, bool keepsFound, Lo
 
 /// Every way on every pose; before the rounds, on the first one, one whose results go nowhere.
 Result<void> findAll(const Engines& engines, const CompareSettings& settings, const Scene& scene,
-                     LocalizeResult& result, const std::function<void()>& step) {
+                     LocalizeResult& result, const std::function<void(std::uint64_t)>& step) {
     const Work work(scene);
     const auto byAll = [&](std::size_t pose, bool keepsFound, std::vector<LocalizeWay>& ways) -> Result<void> {
         for (std::size_t i = 0; i < engines.size(); ++i) {
@@ -97,7 +97,7 @@ Result<void> findAll(const Engines& engines, const CompareSettings& settings, co
     Timed round{.take = [&](const Turn& turn) -> Result<double> {
         for (std::size_t pose = 0; pose < scene.poses.size(); ++pose) {
             VOXTACT_TRY(byAll(pose, turn.round == 1, result.ways));
-            step();
+            step(1);
         }
         return 0.0;
     }};
@@ -219,7 +219,7 @@ void judgeLocalize(LocalizeResult& result) {
 }
 
 Result<void> localize(const device::Session& session, const CompareSettings& settings, const Scene& scene,
-                      LocalizeResult& result, const std::function<void()>& step) {
+                      LocalizeResult& result, const std::function<void(std::uint64_t)>& step) {
     result.poseNumbers = scene.poseNumbers;
     VOXTACT_TRY(makeReady(session, scene));
     const Result<Engines> engines = makeWays(session, scene, result);
@@ -245,7 +245,7 @@ void writeLocalize(std::ostream& out, io::Format format, const Scene& scene, con
     Json& json = output.members;
     json["scene"] = sceneJson(scene);
     json["summary"] = output.sentences;
-    json["agrees"] = !result.verdict.failed();
+    json["agrees"] = result.ways.back().triangles == 0 ? Json() : Json(!result.verdict.failed());
     json["poses"] = result.poseNumbers;
     json["ways"] = io::rowsJson(output.table);
     json["not_certified"] = arrayOf(result.wrong, [](const WrongTriangle& wrong) {

@@ -43,7 +43,7 @@ struct LocalizeResult {
 /// Every way on every pose of the scene, in `settings.repeats` rounds as far as they fit in `settings.timeLimit`, and
 /// what follows from what they found. `step` is called for each pose of a round. `result` has the machine.
 [[nodiscard]] Result<void> localize(const device::Session& session, const CompareSettings& settings, const Scene& scene,
-                                    LocalizeResult& result, const std::function<void()>& step);
+                                    LocalizeResult& result, const std::function<void(std::uint64_t)>& step);
 
 /// Fills what follows from what the ways found: missed, wrong, and whether the ways of the view agree.
 void judgeLocalize(LocalizeResult& result);

@@ -62,8 +62,9 @@ Result<double> takeSample(Point& point) {
 }
 
 std::string describe(const Series& series) {
-    return concat("no time of ", series.method, " for batches of ", series.batch, " (", series.triangles,
-                  " triangles, ", series.width, "x", series.height, ", ", sizeText(series.voxels),
+    return concat("no time of ", series.method, " for ",
+                  series.mode == Mode::Sync ? "pairs that are waited for" : concat("batches of ", series.batch), " (",
+                  series.triangles, " triangles, ", series.width, "x", series.height, ", ", sizeText(series.voxels),
                   " voxels): one would take more than a quarter of the sweep's time");
 }
 
@@ -116,7 +117,7 @@ Result<void> measure(const CompareRun& run, std::vector<Point>& points) {
     for (Point& point : points) {
         VOXTACT_TRY(warmUp(point, limit * kLongestSample, run.result));
     }
-    run.step();
+    run.step(1);
     const auto wayOf = [](const Point& point) { return std::pair(point.series.mode, point.series.batch); };
     for (auto first = points.begin(); first != points.end();) {
         const auto last = std::ranges::find_if(first, points.end(),
@@ -263,7 +264,7 @@ Result<bool> sizeVolume(const CompareRun& run, std::uint32_t quarters, Swept& po
     VolumePart& sized = *point.scene.volume;
     const Result<void> loaded = put(run.settings.load.volume(sized.name), sized.data);
     const Result<void> ready = loaded.ok() ? makeReady(run.session, {}, sized) : loaded;
-    run.step();
+    run.step(1);
     if (!ready.ok()) {
         const bool tooLarge =
             ready.error().code == ErrorCode::LimitExceeded || ready.error().code == ErrorCode::OutOfMemory;

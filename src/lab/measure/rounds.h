@@ -38,11 +38,12 @@ struct Rounds {
     /// Rounds after which the things are what they were, poses for example. Every other round is taken backwards, and
     /// so that the same one comes the other way round next time. 0: no round is.
     std::uint64_t cycle = 0;
-    std::function<void()> step{}; ///< after each round, taken or not
+    std::function<void(std::uint64_t rounds)> step{}; ///< how many have passed since, taken or not
     std::function<bool()> stop{}; ///< asked before each sample: whether to take no further one, a check having failed
 };
 
-/// Takes the rounds of things that were verified. Returns how many were taken, without the warm-up.
+/// Takes the rounds of things that were verified, until nothing is left to take. Returns how many were taken, without
+/// the warm-up.
 [[nodiscard]] Result<std::uint64_t> takeRounds(std::span<Timed> things, const Rounds& rounds);
 
 } // namespace voxtact::lab

@@ -254,10 +254,12 @@ PaperWork addRows(const PaperInput& input, std::vector<NamedCounts> counts, Pape
     for (const NamedCounts& by : work.counts) {
         const auto sum = static_cast<double>(std::accumulate(by.counts.begin(), by.counts.end(), 0ULL));
         const auto hits = std::ranges::count_if(by.counts, [](std::uint64_t count) { return count > 0; });
-        result.rows.push_back({.scene = result.scenes.size(),
-                               .method = by.method,
-                               .survivors = sum / static_cast<double>(by.counts.size()),
-                               .hits = static_cast<std::uint32_t>(hits)});
+        const bool isCount = by.method != toString(CountingMethod::QueryAny);
+        result.rows.push_back(
+            {.scene = result.scenes.size(),
+             .method = by.method,
+             .survivors = isCount ? std::optional(sum / static_cast<double>(by.counts.size())) : std::nullopt,
+             .hits = static_cast<std::uint32_t>(hits)});
     }
     result.scenes.push_back(input.facts);
     return work;

@@ -219,7 +219,7 @@ Json sceneJson(const PaperScene& scene) {
 Json rowJson(const PaperRow& row, const PaperResult& result) {
     Json json{{"scene", result.scenes[row.scene].name},
               {"method", row.method},
-              {"survivors", rounded(row.survivors)},
+              {"survivors", row.survivors ? Json(rounded(*row.survivors)) : Json()},
               {"hits", row.hits}};
     for (const PaperClock& clock : kPaperClocks) {
         const bool timed = !(row.*clock.columns).rendering.empty();

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 /// What `voxtact bench --paper` finds: the measurements of the paper (Volume-Surface Collision Detection, Tables 1 and
 /// 2) made again.
@@ -94,7 +95,7 @@ struct PaperColumns {
 struct PaperRow {
     std::size_t scene = 0; ///< number in PaperResult::scenes
     std::string method{};
-    double survivors = 0; ///< of a pair, on average over the poses; of query-any 0 or 1
+    std::optional<double> survivors; ///< of a pair, on average over the poses; none of query-any, which counts none
     std::uint32_t hits = 0;
     PaperColumns gpu{};  ///< timestamps
     PaperColumns wall{}; ///< from submission to the end of the wait; `mesh` and `volume` are empty
