@@ -66,7 +66,7 @@ TEST_F(CompareTest, MethodsAgreeAndTheJsonSaysHow) {
     EXPECT_EQ(result["scene"]["poses"], 12);
     EXPECT_EQ(result["scene"]["triangles"], 500);
     EXPECT_EQ(result["poses"].size(), 12U);
-    EXPECT_EQ(result["oracle"]["poses"], 3) << "as many as touch";
+    EXPECT_EQ(result["oracle"]["poses"], 4) << "three that touch, and one that does not";
     EXPECT_EQ(result["oracle"]["by_reason"]["none"], 0);
     EXPECT_TRUE(result["series"].empty());
     for (const Json& rule : result["agreement"]) {
@@ -96,10 +96,13 @@ TEST_F(CompareTest, TheOracleLooksWhereSomethingTouches) {
 
 TEST_F(CompareTest, WhereNothingTouchesNothingIsClaimed) {
     const Json result = json({"--sweep", "none", "--opacity", "0:0,255:0"});
-    const Json& oracle = result["agreement"].back();
+    const Json& oracle = *(result["agreement"].end() - 2); // by fragments; then by counts, with cpu
     EXPECT_EQ(oracle["checked"], false);
     EXPECT_TRUE(oracle["agrees"].is_null());
-    EXPECT_EQ(oracle["why_not"], "nothing touches on any pose");
+    EXPECT_EQ(oracle["why_not"], "neither has a fragment on these poses");
+    EXPECT_THAT(output(compare({"--sweep", "none", "--opacity", "0:0,255:0"})),
+                HasSubstr("fragment by fragment: not checked, neither has a fragment"));
+    EXPECT_EQ(result["oracle"]["checks"].size(), 4U) << "all might have missed something";
     EXPECT_THAT(result["notes"].dump(), HasSubstr("nothing touches on any pose: that all agree says little"));
     const Json alone =
         Json::parse(output({"compare", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:300", "--number", "2",

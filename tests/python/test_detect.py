@@ -230,6 +230,9 @@ def test_labels_are_taken_as_they_are(head):
 def test_no_poses(scene, knife):
     assert len(scene.detect(knife, []).count) == 0
     assert len(scene.detect([(knife, []), (knife, np.eye(4))]).count) == 1
+    for answer in (scene.clearance(knife, []).lo, scene.within(knife, [], margin=1).hit,
+                   scene.around(knife, [], distance=1, angle=1).hit):
+        assert len(answer) == 0
     with pytest.raises(TypeError, match="generator"):
         scene.detect(knife, (pose for pose in [np.eye(4)]))
 

@@ -15,7 +15,7 @@ import voxtact as vx
 from conftest import cube, half_space, placed, random_poses
 
 
-@pytest.mark.parametrize("poses", [np.zeros(16), np.zeros((3, 4)), np.zeros((2, 3, 3)), np.zeros((1, 1, 4, 4)), 3.0, [],
+@pytest.mark.parametrize("poses", [np.zeros(16), np.zeros((3, 4)), np.zeros((2, 3, 3)), np.zeros((1, 1, 4, 4)), 3.0, [[]],
                                    np.zeros((4, 4, 5)), [[1, 2], [3, 4]]])
 def test_poses_of_another_shape(scene, knife, poses):
     for ask in (scene.detect, scene.clearance, scene.motion, lambda *asked: scene.within(*asked, margin=1),

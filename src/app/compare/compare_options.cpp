@@ -89,8 +89,8 @@ void addCompareOptions(CLI::App& parser, CompareOptions& options) {
             "which, as a list: " + methodNames() + "; default: all that the device can do, and cpu")
         ->type_name("LIST");
     addWholeNumber(parser, "--oracle", options.settings.oraclePoses, 0,
-                   "poses, spread evenly over those that touch, that are checked fragment by fragment against the "
-                   "oracle; 0: none");
+                   "poses that are checked fragment by fragment against the oracle, spread evenly over those that touch, and over "
+                   "the others where these are too few; 0: none");
     parser
         .add_option_function<std::string>(
             "--sweep", [&options](const std::string& name) { readSweep(name, options); },

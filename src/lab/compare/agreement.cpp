@@ -203,7 +203,7 @@ std::uint64_t countOf(oracle::Doubt doubt, std::span<const FragmentCheck> checks
 }
 
 Verdict judgeFragments(std::span<const FragmentCheck> checks) {
-    Verdict verdict{.rule = kFragmentRule, .unit = "fragments"};
+    Verdict verdict{.rule = kFragmentRule, .members = kFragmentRule, .unit = "fragments"};
     for (const FragmentCheck& check : checks) {
         // In both, and on one side only: the union.
         verdict.compared += (check.onDevice + check.byOracle + check.differing.size()) / 2;

@@ -68,8 +68,28 @@ void tellOracle(const std::vector<std::uint32_t>& sample, CompareResult& result)
     result.verdicts.push_back(tellDifference(some, oracle, numbers));
 }
 
-/// The device's fragments against the oracle's, on as many poses as the settings say, spread evenly over those on which
-/// a method counts anything. Adds to the result the checks, the verdicts and the oracle's counts and time.
+/// As many poses as asked for: spread evenly over those on which a method counts anything, and, where these are too
+/// few, over the others, on which all methods may miss the same.
+std::vector<std::uint32_t> oraclePoses(std::uint32_t asked, const CompareResult& result) {
+    std::vector<std::uint32_t> touching = touchingPoses(result.counts);
+    std::vector<std::uint32_t> others;
+    for (std::uint32_t pose = 0; pose < result.poseNumbers.size(); ++pose) {
+        if (!std::ranges::binary_search(touching, pose)) {
+            others.push_back(pose);
+        }
+    }
+    std::vector<std::uint32_t> out;
+    for (const std::vector<std::uint32_t>& from : {touching, others}) {
+        const auto left = asked - static_cast<std::uint32_t>(out.size());
+        for (const std::uint32_t at : spreadEvenly(left, static_cast<std::uint32_t>(from.size()))) {
+            out.push_back(from[at]);
+        }
+    }
+    return out;
+}
+
+/// The device's fragments against the oracle's, on oraclePoses(). Adds to the result the checks, the verdicts and the
+/// oracle's counts and time.
 Result<void> checkFragments(const CompareRun& run) {
     CompareResult& result = run.result;
     const auto unchecked = [&result](std::string why) {
@@ -85,14 +105,9 @@ Result<void> checkFragments(const CompareRun& run) {
     if (!trace.ok()) {
         return trace.error().code == ErrorCode::Unsupported ? unchecked(trace.error().text) : trace.error();
     }
-    const std::vector<std::uint32_t> touching = touchingPoses(result.counts);
-    if (touching.empty()) {
-        return unchecked("nothing touches on any pose");
-    }
     const oracle::Tolerance tolerance{.value = result.machine.filterError};
     const std::vector<NamedCounts> raster = countsBy(result.counts, Coverage::Rasteriser);
-    std::vector<std::uint32_t> sample = spreadEvenly(poses, static_cast<std::uint32_t>(touching.size()));
-    std::ranges::transform(sample, sample.begin(), [&](std::uint32_t at) { return touching[at]; });
+    const std::vector<std::uint32_t> sample = oraclePoses(poses, result);
     double milliseconds = 0;
     for (const std::uint32_t index : sample) {
         Result<FragmentCheck> checked = check(*trace, run.scene, index, tolerance, milliseconds);
