@@ -145,8 +145,8 @@ struct DetectorDesc {
     std::uint32_t mostContacts = 1U << 20U;                  ///< a list of contacts is cut beyond that many
 };
 
-/// Keeps its threads from call to call. Where the last call was done sooner than another thread is woken, the next one
-/// of no more pairs begins on the caller's thread alone. Thread-safety: one detect() at a time.
+/// Keeps its threads from call to call. Where the last two calls were done sooner than another thread is woken, one
+/// that has no more to do begins on the caller's thread alone. Thread-safety: one detect() at a time.
 class Detector {
   public:
     /// Starts its threads. Refuses numbers outside the ranges of DetectorDesc, and outputs with stopAtFirst.

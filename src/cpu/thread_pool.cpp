@@ -53,17 +53,16 @@ void ThreadPool::run(std::uint64_t pieces, const Step& step, WakeOthers when) {
         return;
     }
     const auto others = static_cast<std::uint32_t>(std::min<std::uint64_t>(threads(), pieces)) - 1;
-    const bool alone = when == WakeOthers::Predicted && pieces <= brief_;
-    Clock::duration took{};
-    attempt([&] { took = lead(others, step, alone); });
-    const std::uint32_t joined = rest();
+    const bool alone = when == WakeOthers::Predicted && pieces <= std::min(brief_[0], brief_[1]);
+    attempt([&] { lead(others, step, alone); });
+    const bool isBrief = rest() < kWaking && thrown_ == nullptr;
+    brief_ = {isBrief ? pieces : 0, brief_[0]};
     if (thrown_ != nullptr) {
         std::rethrow_exception(std::exchange(thrown_, nullptr));
     }
-    brief_ = took * (joined + 1) < kWaking ? pieces : 0;
 }
 
-ThreadPool::Clock::duration ThreadPool::lead(std::uint32_t others, const Step& step, bool alone) {
+void ThreadPool::lead(std::uint32_t others, const Step& step, bool alone) {
     if (others > 0 && !alone) {
         wake(others, step);
     }
@@ -75,14 +74,16 @@ ThreadPool::Clock::duration ThreadPool::lead(std::uint32_t others, const Step& s
             waits = false;
         }
     }
-    return Clock::now() - start;
+    const Clock::duration spent = Clock::now() - start;
+    const std::lock_guard lock(mutex_);
+    spent_ += spent;
 }
 
-std::uint32_t ThreadPool::rest() {
+ThreadPool::Clock::duration ThreadPool::rest() {
     std::unique_lock lock(mutex_);
     wanted_ = 0;
     finished_.wait(lock, [this] { return running_ == 0; });
-    return std::exchange(joined_, 0);
+    return std::exchange(spent_, {});
 }
 
 void ThreadPool::wake(std::uint32_t others, const Step& step) {
@@ -115,15 +116,17 @@ void ThreadPool::work(std::uint32_t thread) {
             return;
         }
         seen = round_;
-        ++joined_;
         ++running_;
         const Step& step = *step_;
         lock.unlock();
+        const Clock::time_point start = Clock::now();
         attempt([&] {
             while (step(thread)) {
             }
         });
+        const Clock::duration spent = Clock::now() - start;
         lock.lock();
+        spent_ += spent;
         if (--running_ == 0) {
             finished_.notify_one();
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
@@ -15,8 +16,9 @@ namespace voxtact::cpu {
 /// When a call's other threads are woken.
 enum class WakeOthers : std::uint8_t {
     AtOnce,
-    /// Where the last call was done before anybody could have been woken, of no fewer pieces: once this one has taken
-    /// as long, and a piece is done. Else at once.
+    /// Where the last two calls, of no fewer pieces, were done in less time than it takes to wake anybody: once this
+    /// one has taken as long, and a piece is done. Else at once. A call of few pieces that take long, after two brief
+    /// ones, may so take twice as long.
     Predicted
 };
 
@@ -43,11 +45,11 @@ class ThreadPool {
     using Clock = std::chrono::steady_clock;
 
     void work(std::uint32_t thread);
-    /// The caller's part. Returns how long its pieces took.
-    Clock::duration lead(std::uint32_t others, const Step& step, bool alone);
+    /// The caller's part.
+    void lead(std::uint32_t others, const Step& step, bool alone);
     void wake(std::uint32_t others, const Step& step);
-    /// Waits for those that have joined, and returns how many; from then on none does.
-    std::uint32_t rest();
+    /// Waits for those that have joined, and returns how long all pieces took; from then on none joins.
+    Clock::duration rest();
     template <class Call> void attempt(const Call& call) noexcept;
     void stop() noexcept;
 
@@ -56,11 +58,12 @@ class ThreadPool {
     std::condition_variable finished_;
     const Step* step_ = nullptr;
     std::uint64_t round_ = 0;
-    std::uint32_t wanted_ = 0; ///< threads that may join this round
-    std::uint32_t joined_ = 0;
+    std::uint32_t wanted_ = 0;  ///< threads that may join this round
     std::uint32_t running_ = 0; ///< of those that have joined, the ones that are not at rest
     std::exception_ptr thrown_; ///< in this round
-    std::uint64_t brief_ = 0;   ///< pieces of the last call if it was done by the time that others are woken; else 0
+    Clock::duration spent_{};   ///< by all threads
+    /// Pieces of the last call and of the one before it, 0 where all of its pieces together took as long as waking.
+    std::array<std::uint64_t, 2> brief_{};
     bool stopping_ = false;
     std::vector<std::thread> workers_;
 };

@@ -477,6 +477,8 @@ def test_what_nibabel_cannot_place(tmp_path):
     volume = vx.read_volume(nibabel.load(path))
     assert "qform and sform are unset" in volume.notes[0]
     same_place(volume, vx.read_volume(path))
+    same_place(vx.read_volume(nibabel.spatialimages.SpatialImage(noise(), np.eye(4))),
+               vx.read_volume(noise(), affine=np.eye(4), axes="xyz"))
     with pytest.raises(vx.InvalidArgumentError, match="no affine"):
         vx.read_volume(nibabel.Nifti1Image(noise(), None))
     with pytest.raises(vx.InvalidArgumentError, match=r"shape \(3, 4, 5, 1, 2\)"):

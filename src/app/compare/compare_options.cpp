@@ -88,9 +88,10 @@ void addCompareOptions(CLI::App& parser, CompareOptions& options) {
             "--methods", [&options](const std::string& list) { readMethods(list, options.settings.methods); },
             "which, as a list: " + methodNames() + "; default: all that the device can do, and cpu")
         ->type_name("LIST");
-    addWholeNumber(parser, "--oracle", options.settings.oraclePoses, 0,
-                   "poses that are checked fragment by fragment against the oracle, spread evenly over those that touch, and over "
-                   "the others where these are too few; 0: none");
+    addWholeNumber(
+        parser, "--oracle", options.settings.oraclePoses, 0,
+        "poses that are checked fragment by fragment against the oracle, spread evenly over those that touch, and over "
+        "the others where these are too few; 0: none");
     parser
         .add_option_function<std::string>(
             "--sweep", [&options](const std::string& name) { readSweep(name, options); },

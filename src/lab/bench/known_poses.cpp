@@ -113,9 +113,9 @@ Result<double> takeBlock(const BenchRun& run, KnownPoses& poses, const Engine& e
     return spent;
 }
 
-/// One size, by every engine that is still `alive`, none of which has more than `longest` ms for a sample on average;
-/// those for which the next would take longer than `longest` ms end,
-/// and all where the host would take longer than `mostLearning` ms to say what must be answered.
+/// One size, by every engine that is still `alive`, none of which has more than `longest` ms for a sample on average.
+/// Those for which the next size would take longer than `longest` ms end, and all where the host would take longer than
+/// `mostLearning` ms to say what must be answered.
 Result<void> measureSize(const BenchRun& run, KnownPoses& poses, Engines& alive, std::uint32_t batch, double longest,
                          double mostLearning) {
     if (alive.empty()) {

@@ -180,7 +180,7 @@ std::vector<std::string> soonestTicks(const BenchResult& result) {
 /// What must be known when reading the times of ticks.
 void noteTicks(const BenchSettings& settings, const BenchResult& result, std::vector<std::string>& notes) {
     const auto isCut = [&](const BenchRow& of) { return of.wall.size() < settings.number; };
-    if (std::ranges::any_of(result.rows, isCut)) {
+    if (result.disagreement.empty() && std::ranges::any_of(result.rows, isCut)) {
         notes.push_back(concat("rows of fewer than ", settings.number,
                                " ticks are of the first ones: the engine's share of --time-limit was used up"));
     }
@@ -200,7 +200,8 @@ void noteTicks(const BenchSettings& settings, const BenchResult& result, std::ve
 
 /// What must be known when reading the times of batches.
 void noteBatches(const BenchSettings& settings, const BenchResult& result, std::vector<std::string>& notes) {
-    if (std::ranges::any_of(result.rows, [&](const BenchRow& of) { return of.wall.size() < settings.repetitions; })) {
+    const auto isCut = [&](const BenchRow& of) { return of.wall.size() < settings.repetitions; };
+    if (result.disagreement.empty() && std::ranges::any_of(result.rows, isCut)) {
         notes.push_back(concat("rows of fewer than ", counted(settings.repetitions, "sample"),
                                ": the engine's share of --time-limit was used up"));
     }

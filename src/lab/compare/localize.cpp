@@ -105,6 +105,7 @@ Result<void> findAll(const Engines& engines, const CompareSettings& settings, co
         takeRounds({&round, 1}, {.repeats = settings.repeats, .limit = settings.timeLimit * 1000});
     VOXTACT_TRY(rounds);
     if (*rounds < settings.repeats) {
+        step((settings.repeats - *rounds) * scene.poses.size());
         result.notes.push_back(concat(*rounds, " of ", settings.repeats,
                                       " rounds of which triangles touch: more would not fit in the time for them"));
     }
@@ -191,12 +192,19 @@ io::Table waysTable(const LocalizeResult& result) {
     }));
 }
 
+/// Whether no way found a triangle on any pose: that all agree then says nothing.
+bool findsNothing(const LocalizeResult& result) {
+    return !result.verdict.failed() &&
+           std::ranges::all_of(result.ways, [](const LocalizeWay& way) { return way.triangles == 0; });
+}
+
 std::vector<std::string> sentences(const LocalizeResult& result) {
     std::vector<std::string> out;
     const Verdict& verdict = result.verdict;
     out.push_back(verdict.rule + (verdict.failed()
                                       ? concat(": NO, on pose ", verdict.first->pose, ": ", verdict.first->text)
-                                      : ": the same triangles with the same counts on every pose"));
+                                  : findsNothing(result) ? ": no triangle on any pose"
+                                                         : ": the same triangles with the same counts on every pose"));
     TextStream missed;
     missed << "the camera shows " << grouped(result.ways.front().triangles) << " touching triangles, "
            << grouped(result.ways.back().triangles) << " certainly touch";
@@ -245,7 +253,7 @@ void writeLocalize(std::ostream& out, io::Format format, const Scene& scene, con
     Json& json = output.members;
     json["scene"] = sceneJson(scene);
     json["summary"] = output.sentences;
-    json["agrees"] = result.ways.back().triangles == 0 ? Json() : Json(!result.verdict.failed());
+    json["agrees"] = findsNothing(result) ? Json() : Json(!result.verdict.failed());
     json["poses"] = result.poseNumbers;
     json["ways"] = io::rowsJson(output.table);
     json["not_certified"] = arrayOf(result.wrong, [](const WrongTriangle& wrong) {

@@ -20,8 +20,8 @@ struct Provenance {
 
 /// How far long work is.
 struct Steps {
-    std::function<void(std::uint64_t total)> begin; ///< before the first
-    std::function<void(std::uint64_t steps)> step; ///< so many are done, beyond those before
+    std::function<void(std::uint64_t total)> begin;     ///< before the first
+    std::function<void(std::uint64_t steps)> step;      ///< so many are done, beyond those before
     std::function<void(const std::string& what)> doing; ///< what the following steps are
 };
 

@@ -87,7 +87,8 @@ def read_label_names(path: Union[str, os.PathLike[str]]) -> dict[int, str]:
 
 def _checked(names: Optional[dict[int, str]]) -> Optional[dict[int, str]]:
     for number, name in ({} if names is None else names).items():
-        if isinstance(number, (bool, str)) or not hasattr(number, "__index__") or not isinstance(name, str):
+        whole = hasattr(number, "__index__") and not isinstance(number, (bool, np.bool_))
+        if not whole or not isinstance(name, str):
             raise TypeError(f"names has {number!r}: {name!r}; it is a dict of numbers and names")
     return names
 

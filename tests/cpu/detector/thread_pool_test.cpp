@@ -58,6 +58,32 @@ class Meeting {
     std::atomic<int> there_{0};
 };
 
+/// A call of so many pieces; each takes `each`, without sleeping.
+void spend(ThreadPool& pool, std::size_t count, std::chrono::microseconds each, WakeOthers when) {
+    Pieces pieces(count);
+    pool.run(
+        count,
+        [&](std::uint32_t) {
+            return pieces.step([&](std::size_t) {
+                const auto end = std::chrono::steady_clock::now() + each;
+                while (std::chrono::steady_clock::now() < end) {
+                }
+            });
+        },
+        when);
+}
+
+/// A call of two pieces that wait for each other: whether another thread came.
+bool meets(ThreadPool& pool, WakeOthers when) {
+    Meeting meeting;
+    Pieces pieces(2);
+    std::atomic<int> met{0};
+    pool.run(
+        2, [&](std::uint32_t) { return pieces.step([&](std::size_t) { met += meeting.come() ? 1 : 0; }); }, when);
+    return met == 2;
+}
+
+constexpr std::chrono::microseconds kLong{100};
 constexpr std::array kWhen{WakeOthers::AtOnce, WakeOthers::Predicted};
 
 TEST(ThreadPoolTest, EveryPieceIsDoneOnce) {
@@ -119,21 +145,32 @@ TEST(ThreadPoolTest, OthersComeWhereItTakesLonger) {
     }
 }
 
-// More pieces than in the call before it: nobody knows that they are brief, and the first two wait for each other.
+// The first of two pieces waits for the second one: alone, the caller could not go on.
 TEST(ThreadPoolTest, OthersComeAtOnceWhereThereAreMorePieces) {
     ThreadPool pool(2);
     for (int i = 0; i < 20; ++i) {
-        Pieces pieces(1);
-        pool.run(
-            1, [&](std::uint32_t) { return pieces.step([](std::size_t) {}); }, WakeOthers::Predicted);
+        spend(pool, 1, {}, WakeOthers::Predicted);
     }
-    Meeting meeting;
-    Pieces pieces(2);
-    std::atomic<int> met{0};
-    pool.run(
-        2, [&](std::uint32_t) { return pieces.step([&](std::size_t) { met += meeting.come() ? 1 : 0; }); },
-        WakeOthers::Predicted);
-    EXPECT_EQ(met, 2);
+    EXPECT_TRUE(meets(pool, WakeOthers::Predicted));
+}
+
+// Whoever did the pieces of the calls before, even if it was not the caller.
+TEST(ThreadPoolTest, OthersComeAtOnceAfterLongCalls) {
+    ThreadPool pool(2);
+    for (int round = 0; round < 200; ++round) {
+        spend(pool, 2, kLong, kWhen[static_cast<std::size_t>(round) % 2]);
+        spend(pool, 2, kLong, WakeOthers::AtOnce);
+        ASSERT_TRUE(meets(pool, WakeOthers::Predicted)) << round;
+    }
+}
+
+TEST(ThreadPoolTest, OthersComeAtOnceAfterASingleBriefCall) {
+    ThreadPool pool(2);
+    for (int round = 0; round < 50; ++round) {
+        spend(pool, 2, kLong, WakeOthers::Predicted);
+        spend(pool, 2, {}, WakeOthers::Predicted);
+        ASSERT_TRUE(meets(pool, WakeOthers::Predicted)) << round;
+    }
 }
 
 // The step of a call is gone with it: who wakes up later must not ask it. Here it stays, and would see that.
