@@ -235,7 +235,7 @@ def _volume_of_array(array: Any, affine: npt.ArrayLike, space: Space, axes: Opti
 
 def _says_no_place(header: Any) -> bool:
     """Whether it is that of a NIfTI file with neither qform nor sform."""
-    keys = getattr(header, "keys", tuple)()
+    keys: Any = getattr(header, "keys", tuple)()
     return "sform_code" in keys and int(header["sform_code"]) == 0 and int(header["qform_code"]) == 0
 
 
