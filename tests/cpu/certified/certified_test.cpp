@@ -216,14 +216,24 @@ TEST(CertifiedExtremes, AnOutlierDoesNotSpoilItsBrick) {
         cpu::Detector::create({.threads = 1, .projection = Projection::Conservative, .outputs = {.triangles = true}}));
     std::uint64_t hits = 0;
     for (std::uint64_t number = 0; number < randomCases(300, 30); ++number) {
-        const PairAnswer plain = take(askEngine(detector, outlierCase(seed + number, 10, false))).pair;
+        const CertifiedCase usual = outlierCase(seed + number, 10, false);
+        const PairAnswer plain = take(askEngine(detector, usual)).pair;
         hits += plain.hit ? 1U : 0U;
+        // A cell that a triangle grazes, within rounding, counts or does not, depending on what is known around it.
+        CellCount cells;
+        for (const CellCount& of : countCells(usual)) {
+            cells.certain += of.certain;
+            cells.possible += of.possible;
+        }
         for (const double outlier : {-1e5, 1e7, -1e20, -3.4e38, 3.4e38}) {
             SCOPED_TRACE("VOXTACT_TEST_SEED=" + std::to_string(seed) + ", case " + std::to_string(number) + ", " +
                          std::to_string(outlier));
             const PairAnswer found = take(askEngine(detector, outlierCase(seed + number, outlier, false))).pair;
-            EXPECT_EQ(found.count, plain.count);
-            EXPECT_EQ(found.possible, plain.possible);
+            EXPECT_GE(found.count, cells.certain);
+            EXPECT_LE(found.count, cells.possible);
+            if (cells.certain > 0 || cells.possible == 0) {
+                EXPECT_EQ(found.possible, plain.possible);
+            }
             const CertifiedCase near = outlierCase(seed + number, outlier, true);
             EXPECT_EQ(complaints(take(askEngine(detector, near)), take(oracle::certifiedOracle(near.scene.pair())),
                                  countCells(near)),
