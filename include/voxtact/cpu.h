@@ -224,8 +224,8 @@ struct TrackerDesc {
 /// mostly without a look. When the mesh has moved by no more than it was known to be clear, it is free, and the bounds
 /// follow from those before: the clearance changes by no more than the farthest that a point of the mesh has moved.
 /// When it is looked, then so far only as some more moves like the last one go: what an answer costs follows the
-/// speed. What is said of a touch for certain never depends on the calls before: the width of
-/// the bounds does, and whether a pose is known to be free that is else *possible*.
+/// speed. What is said of a touch for certain never depends on the calls before: the width of the bounds does, and
+/// whether a pose is known to be free that is else *possible*.
 ///
 /// Works on the calling thread. The first call with a volume, a transfer function or a threshold, and after an edit,
 /// prepares them and takes milliseconds. Thread-safety: one call at a time.

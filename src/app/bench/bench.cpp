@@ -69,10 +69,10 @@ method, outputs to the bare count). With --latency:
 mesh,triangles,engine,projection,question,threads,recorded,awaited,ticks,touching (ticks that do),rounding (ticks that
 the device's rasteriser counts otherwise than cpu),p50_us,p99_us (from 100 ticks on),p99_9_us (from 1000
 on),max_us,record_p50_us (of it, recording). With --batches:
-mesh,triangles,engine,projection,question,threads,poses_on,batch,samples,rounding,wall_ms_median,wall_ms_min,wall_ms_max,gpu_ms_median,
-pairs_per_s. With --paper: scene,method,clock (gpu or wall),width,height,triangles,poses,survivors (of a pair, on
-average; empty where a method does not count),hits (poses),samples,mesh_ms,volume_ms,collision_ms,collision_ms_p10,collision_ms_p90,rendering_ms,
-rendering_ms_p10,rendering_ms_p90,total_ms,total_ms_p10,total_ms_p90,collision_percent (collision/rendering),
+mesh,triangles,engine,projection,question,threads,poses_on,batch,samples,rounding,wall_ms_median,wall_ms_min,
+wall_ms_max,gpu_ms_median,pairs_per_s. With --paper: scene,method,clock (gpu or wall),width,height,triangles,poses,
+survivors (of a pair, on average; empty where a method does not count),hits (poses),samples,mesh_ms,volume_ms,
+collision_ms,collision_ms_p10,collision_ms_p90,rendering_ms,rendering_ms_p10,rendering_ms_p90,total_ms,total_ms_p10,total_ms_p90,collision_percent (collision/rendering),
 overhead_percent ((total-rendering)/rendering, round by round),overhead_low,overhead_high,confidence (of the interval
 that has the median); the scenes and what else was measured are in comments.
 

@@ -254,7 +254,8 @@ PaperWork addRows(const PaperInput& input, std::vector<NamedCounts> counts, Pape
     for (const NamedCounts& by : work.counts) {
         const auto sum = static_cast<double>(std::accumulate(by.counts.begin(), by.counts.end(), 0ULL));
         const auto hits = std::ranges::count_if(by.counts, [](std::uint64_t count) { return count > 0; });
-        const bool isCount = by.method != toString(CountingMethod::QueryAny);
+        const std::optional<CountingMethod> method = countingMethodFromName(by.method);
+        const bool isCount = !method || rowOf(*method).exactness == Exactness::Exact;
         result.rows.push_back(
             {.scene = result.scenes.size(),
              .method = by.method,
