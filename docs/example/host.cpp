@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The host engine, without Vulkan: whether a scalpel touches a head and where, how near it is, whether the way to the
-// next pose is free, and which straight paths to a target keep clear of a structure. The marked parts are the ones that
-// the manual shows.
+// The host engine, without Vulkan: whether a scalpel touches a head and where, how near it is and how much of it
+// touches, whether the way to the next pose is free, and which straight paths to a target keep clear of a structure.
+// The marked parts are the ones that the manual shows.
 //
 // Exit status: 0 done, 1 something failed.
 #include "voxtact/cpu.h"
@@ -49,6 +49,16 @@ void measure(const cpu::Batch& batch) {
     const BatchAnswer margin = take(meter.within(batch, 2.0)); // pairs[i].hit: is anything within 2 mm?
     // [/clearance]
     std::printf("%zu margins\n", margin.pairs.size());
+}
+
+void measureArea(const cpu::Batch& batch) {
+    // [area]
+    cpu::AreaMeter meter = take(cpu::AreaMeter::create({.tolerance = 1.0}));
+    const AreaAnswer answer = take(meter.measure(batch));
+    for (const PairArea& pair : answer.pairs) {
+        std::printf("pose %u: %.0f to %.0f mm^2\n", pair.pose, pair.bounds.lo, pair.bounds.hi);
+    }
+    // [/area]
 }
 
 void follow(const cpu::BatchItem& scene, std::span<const Mat4> hand) {
@@ -130,6 +140,7 @@ int main() {
     // [/scene]
     detect(batch);
     measure(batch);
+    measureArea(batch);
     const std::vector<Mat4> hand = {translation({0, 0, 150}), translation({0, 0, 149}), translation({0, 0, 148})};
     follow(item, hand);
     move(batch);

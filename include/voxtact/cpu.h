@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "voxtact/area.h"
 #include "voxtact/clearance.h"
 #include "voxtact/data.h"
 #include "voxtact/motion.h"
@@ -28,6 +29,7 @@ struct VolumeImpl;
 struct TransferFunctionImpl;
 struct MeshImpl;
 struct DetectorImpl;
+struct AreaMeterImpl;
 struct ClearanceMeterImpl;
 struct ClearanceTrackerImpl;
 struct MotionCheckerImpl;
@@ -165,6 +167,40 @@ class Detector {
   private:
     explicit Detector(std::unique_ptr<DetectorImpl> impl) noexcept;
     std::unique_ptr<DetectorImpl> impl_;
+};
+
+/// What an AreaMeter is made for.
+struct AreaDesc {
+    std::uint32_t threads = 0;                ///< 0: one for each processor; at most kMostThreads
+    double tolerance = kDefaultAreaTolerance; ///< mm^2, from 1e-9 on: how near to each other the bounds are brought
+    double resolution = kDefaultResolution;   ///< of the touch, as in DetectorDesc
+    std::uint64_t mostSteps = 1U << 18U;      ///< a pair that takes more is left with the bounds it has; at least 1
+};
+
+/// Measures how much of meshes is in what is opaque, in mm^2. What it answers depends on nothing but the pair and its
+/// desc: not on the threads, and not on what else is in a batch. Keeps its threads from call to call, and what it makes
+/// of the last volumes and transfer functions. Thread-safety: one call at a time.
+class AreaMeter {
+  public:
+    /// Starts its threads. Refuses numbers outside the ranges of AreaDesc.
+    [[nodiscard]] VOXTACT_API static Result<AreaMeter> create(const AreaDesc& desc = {});
+    VOXTACT_API AreaMeter(AreaMeter&&) noexcept;
+    VOXTACT_API AreaMeter& operator=(AreaMeter&&) noexcept;
+    VOXTACT_API ~AreaMeter();
+
+    /// The contact area of every pair. Labels and view are not looked at. Refuses what Detector::detect() refuses.
+    [[nodiscard]] VOXTACT_API Result<AreaAnswer> measure(const Batch& batch);
+    /// The contact area of every pair in each label's part of what is opaque; of labels that a map does not have it is
+    /// 0. Every item needs labels, on the grid of its volume. Refuses what measure() refuses, other grids
+    /// (Unsupported), and more than kMostMeasuredLabels labels (LimitExceeded).
+    [[nodiscard]] VOXTACT_API Result<LabelAreaAnswer> measureLabels(const Batch& batch,
+                                                                    std::span<const std::int32_t> labels);
+    /// How many threads it runs on.
+    [[nodiscard]] VOXTACT_API std::uint32_t threads() const noexcept;
+
+  private:
+    explicit AreaMeter(std::unique_ptr<AreaMeterImpl> impl) noexcept;
+    std::unique_ptr<AreaMeterImpl> impl_;
 };
 
 /// What a ClearanceMeter is made for.

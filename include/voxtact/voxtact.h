@@ -3,6 +3,7 @@
 #define VOXTACT_VOXTACT_H
 
 #include "voxtact/voxtact_answer.h"
+#include "voxtact/voxtact_area.h"
 #include "voxtact/voxtact_base.h"
 #include "voxtact/voxtact_clearance.h"
 #include "voxtact/voxtact_data.h"

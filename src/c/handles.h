@@ -43,6 +43,9 @@ struct vxt_host_mesh {
 struct vxt_host_detector {
     voxtact::cpu::Detector object;
 };
+struct vxt_host_area_meter {
+    voxtact::cpu::AreaMeter object;
+};
 struct vxt_host_clearance_meter {
     voxtact::cpu::ClearanceMeter object;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/batch_check.h"
 
+#include "core/base/try.h"
 #include "core/batch/batch_check.h"
 #include "core/geometry/pair_transform.h"
 #include "cpu/scene/scene_impl.h"
@@ -28,6 +29,13 @@ struct HostSide {
 
 Result<std::uint32_t> checkBatch(const DetectorDesc& desc, const Batch& batch) {
     return voxtact::checkBatch(desc.projection, desc.samplesPerVoxel, batch, HostSide{});
+}
+
+Result<void> checkCertifiedBatch(const Batch& batch) {
+    DetectorDesc desc;
+    desc.projection = Projection::Conservative;
+    VOXTACT_TRY(checkBatch(desc, batch));
+    return {};
 }
 
 Result<void> checkThreads(std::uint32_t threads) {

@@ -10,6 +10,9 @@ namespace voxtact::cpu {
 /// number of pairs.
 [[nodiscard]] Result<std::uint32_t> checkBatch(const DetectorDesc& desc, const Batch& batch);
 
+/// The same of a batch that is asked for what is certain of it, without a camera.
+[[nodiscard]] Result<void> checkCertifiedBatch(const Batch& batch);
+
 /// Refuses more than kMostThreads.
 [[nodiscard]] Result<void> checkThreads(std::uint32_t threads);
 

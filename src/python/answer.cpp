@@ -63,13 +63,42 @@ py::object countersOf(const Answer& answer) {
 }
 
 template <class T>
-py::array inLabelColumns(const Clearances& from, const std::vector<T>& values, const py::object& owner) {
-    if (!from.toLabels) {
+py::array inLabelColumns(const Measured& from, const std::vector<T>& values, const py::object& owner) {
+    if (!from.byLabel) {
         return shown(values, owner);
     }
     return py::array(py::dtype::of<T>(),
                      {static_cast<py::ssize_t>(from.request->pairs), static_cast<py::ssize_t>(from.labels.size())},
                      values.data(), owner);
+}
+
+template <class Row> void addBounds(const std::vector<Row>& rows, double milliseconds, Measured& to) {
+    for (const Row& row : rows) {
+        to.lo.push_back(row.bounds.lo);
+        to.hi.push_back(row.bounds.hi);
+        to.end.push_back(static_cast<std::uint8_t>(row.end));
+    }
+    to.milliseconds += milliseconds;
+}
+
+/// What Clearances and Areas have in common.
+template <class Of> py::class_<Of, std::shared_ptr<Of>> defineMeasured(py::module_& module, const char* name) {
+    const auto measured = [](auto member) {
+        return [member](const py::object& self) {
+            const auto& from = self.cast<const Of&>();
+            return inLabelColumns(from, from.*member, self);
+        };
+    };
+    return py::class_<Of, std::shared_ptr<Of>>(module, name)
+        .def_property_readonly("lo", measured(&Of::lo))
+        .def_property_readonly("hi", measured(&Of::hi))
+        .def_property_readonly("end", measured(&Of::end))
+        .def_property_readonly("item", [](const Of& from) { return itemsOf(*from.request); })
+        .def_property_readonly("pose", [](const Of& from) { return posesOf(*from.request); })
+        .def_property_readonly("labels",
+                               [](const py::object& self) { return shown(self.cast<const Of&>().labels, self); })
+        .def_readonly("milliseconds", &Of::milliseconds)
+        .def("__len__", [](const Of& from) { return from.request->pairs; });
 }
 
 } // namespace
@@ -119,25 +148,25 @@ void Answer::addContacts(std::size_t first, std::vector<Contact> piece) {
 
 void Clearances::add(const ClearanceAnswer& piece) {
     for (const PairClearance& pair : piece.pairs) {
-        lo.push_back(pair.bounds.lo);
-        hi.push_back(pair.bounds.hi);
-        end.push_back(static_cast<std::uint8_t>(pair.end));
         constexpr std::array<double, 3> kNowhere{kNone, kNone, kNone};
         const ClosestPoints* const found = pair.closest ? &*pair.closest : nullptr;
         closest.push_back(found != nullptr ? ClosestRow{found->triangle, found->mesh, found->volume,
                                                         found->perTranslation, found->perRotation}
                                            : ClosestRow{-1, kNowhere, kNowhere, kNowhere, kNowhere});
     }
-    milliseconds += piece.wallMilliseconds;
+    addBounds(piece.pairs, piece.wallMilliseconds, *this);
 }
 
 void Clearances::add(const LabelClearanceAnswer& piece) {
-    for (const LabelClearance& row : piece.labels) {
-        lo.push_back(row.bounds.lo);
-        hi.push_back(row.bounds.hi);
-        end.push_back(static_cast<std::uint8_t>(row.end));
-    }
-    milliseconds += piece.wallMilliseconds;
+    addBounds(piece.labels, piece.wallMilliseconds, *this);
+}
+
+void Areas::add(const AreaAnswer& piece) {
+    addBounds(piece.pairs, piece.wallMilliseconds, *this);
+}
+
+void Areas::add(const LabelAreaAnswer& piece) {
+    addBounds(piece.labels, piece.wallMilliseconds, *this);
 }
 
 void defineAnswers(py::module_& module) {
@@ -178,24 +207,10 @@ void defineAnswers(py::module_& module) {
                                })
         .def("__len__", [](const Answer& answer) { return answer.hit.size(); });
 
-    const auto measured = [](auto member) {
-        return [member](const py::object& self) {
-            const auto& from = self.cast<const Clearances&>();
-            return inLabelColumns(from, from.*member, self);
-        };
-    };
-    py::class_<Clearances, std::shared_ptr<Clearances>>(module, "Clearances")
-        .def_property_readonly("lo", measured(&Clearances::lo))
-        .def_property_readonly("hi", measured(&Clearances::hi))
-        .def_property_readonly("end", measured(&Clearances::end))
-        .def_property_readonly(
-            "closest", [](const py::object& self) { return shown(self.cast<const Clearances&>().closest, self); })
-        .def_property_readonly("item", [](const Clearances& from) { return itemsOf(*from.request); })
-        .def_property_readonly("pose", [](const Clearances& from) { return posesOf(*from.request); })
-        .def_property_readonly(
-            "labels", [](const py::object& self) { return shown(self.cast<const Clearances&>().labels, self); })
-        .def_readonly("milliseconds", &Clearances::milliseconds)
-        .def("__len__", [](const Clearances& from) { return from.request->pairs; });
+    defineMeasured<Clearances>(module, "Clearances").def_property_readonly("closest", [](const py::object& self) {
+        return shown(self.cast<const Clearances&>().closest, self);
+    });
+    defineMeasured<Areas>(module, "Areas");
 }
 
 } // namespace voxtact::python

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "request.h"
+#include "voxtact/area.h"
 #include "voxtact/clearance.h"
 
 #include <array>
@@ -49,19 +50,29 @@ struct ClosestRow {
     std::array<double, 3> perRotation;
 };
 
-/// Clearances of a request.
-struct Clearances {
+/// Bounds of what is measured of the pairs of a request.
+struct Measured {
     std::shared_ptr<const Request> request;
     std::vector<double> lo;
     std::vector<double> hi;
-    std::vector<std::uint8_t> end; ///< ClearanceEnd
-    std::vector<ClosestRow> closest;
-    bool toLabels = false;            ///< lo, hi and end have a column for each of these
+    std::vector<std::uint8_t> end;    ///< ClearanceEnd, or AreaEnd
+    bool byLabel = false;             ///< lo, hi and end have a column for each of these
     std::vector<std::int32_t> labels; ///< none are labels, too
     double milliseconds = 0;
+};
+
+/// Clearances of a request.
+struct Clearances : Measured {
+    std::vector<ClosestRow> closest;
 
     void add(const ClearanceAnswer& piece);
     void add(const LabelClearanceAnswer& piece);
+};
+
+/// Contact areas of a request.
+struct Areas : Measured {
+    void add(const AreaAnswer& piece);
+    void add(const LabelAreaAnswer& piece);
 };
 
 void defineAnswers(py::module_& module);

@@ -116,6 +116,13 @@ cpu::ClearanceMeter& HostSide::meterFor(const Distance& distance) {
     });
 }
 
+cpu::AreaMeter& HostSide::meterFor(const Extent& extent) {
+    return keptOrMade(areaMeters_, Extent::Key(extent.key()), [&] {
+        return cpu::AreaMeter::create(
+            {.threads = threads_, .tolerance = extent.tolerance, .mostSteps = extent.mostSteps});
+    });
+}
+
 cpu::MotionChecker& HostSide::checkerFor(const Way& way) {
     return keptOrMade(checkers_, Way::Key(way.key()), [&] {
         return cpu::MotionChecker::create({.threads = threads_,
@@ -156,6 +163,21 @@ ClearanceAnswer HostSide::measure(const Part& part, const Distance& distance, do
 LabelClearanceAnswer HostSide::measureLabels(const Part& part, const Distance& distance, double threshold,
                                              const LabelData* labels, const std::vector<std::int32_t>& wanted) {
     cpu::ClearanceMeter& meter = meterFor(distance);
+    const std::vector<cpu::BatchItem> items = itemsOf(part, labels);
+    return interruptibly(cpu::Batch{items, {}, threshold},
+                         [&](const cpu::Batch& batch) { return take(meter.measureLabels(batch, wanted)); });
+}
+
+AreaAnswer HostSide::measure(const Part& part, const Extent& extent, double threshold) {
+    cpu::AreaMeter& meter = meterFor(extent);
+    const std::vector<cpu::BatchItem> items = itemsOf(part, nullptr);
+    return interruptibly(cpu::Batch{items, {}, threshold},
+                         [&](const cpu::Batch& batch) { return take(meter.measure(batch)); });
+}
+
+LabelAreaAnswer HostSide::measureLabels(const Part& part, const Extent& extent, double threshold,
+                                        const LabelData* labels, const std::vector<std::int32_t>& wanted) {
+    cpu::AreaMeter& meter = meterFor(extent);
     const std::vector<cpu::BatchItem> items = itemsOf(part, labels);
     return interruptibly(cpu::Batch{items, {}, threshold},
                          [&](const cpu::Batch& batch) { return take(meter.measureLabels(batch, wanted)); });

@@ -37,6 +37,9 @@ class HostSide {
     [[nodiscard]] ClearanceAnswer measure(const Part& part, const Distance& distance, double threshold);
     [[nodiscard]] LabelClearanceAnswer measureLabels(const Part& part, const Distance& distance, double threshold,
                                                      const LabelData* labels, const std::vector<std::int32_t>& asked);
+    [[nodiscard]] AreaAnswer measure(const Part& part, const Extent& extent, double threshold);
+    [[nodiscard]] LabelAreaAnswer measureLabels(const Part& part, const Extent& extent, double threshold,
+                                                const LabelData* labels, const std::vector<std::int32_t>& asked);
     [[nodiscard]] BatchAnswer within(const Part& part, double margin, double threshold);
     /// `part` counts segments.
     [[nodiscard]] MotionAnswer move(const Part& part, const Way& way, double threshold);
@@ -51,6 +54,7 @@ class HostSide {
   private:
     [[nodiscard]] cpu::Detector& detectorFor(const Question& question, std::uint32_t threads);
     [[nodiscard]] cpu::ClearanceMeter& meterFor(const Distance& distance);
+    [[nodiscard]] cpu::AreaMeter& meterFor(const Extent& extent);
     [[nodiscard]] cpu::MotionChecker& checkerFor(const Way& way);
     [[nodiscard]] std::vector<cpu::BatchItem> itemsOf(const Part& part, const LabelData* labels) const;
     /// Whether it takes no longer than waking others does.
@@ -62,6 +66,7 @@ class HostSide {
     // They have threads.
     std::map<std::pair<Question::Key, std::uint32_t>, OfThisProcess<cpu::Detector>> detectors_;
     std::map<Distance::Key, OfThisProcess<cpu::ClearanceMeter>> meters_;
+    std::map<Extent::Key, OfThisProcess<cpu::AreaMeter>> areaMeters_;
     std::map<Way::Key, OfThisProcess<cpu::MotionChecker>> checkers_;
 };
 

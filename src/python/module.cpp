@@ -20,6 +20,8 @@ PYBIND11_MODULE(_core, module) {
     module.attr("MOST_SHEAR") = io::kMostShear;
     module.attr("DEFAULT_THRESHOLD") = kDefaultThreshold;
     module.attr("DEFAULT_TOLERANCE") = kDefaultTolerance;
+    module.attr("DEFAULT_AREA_TOLERANCE") = kDefaultAreaTolerance;
+    module.attr("DEFAULT_AREA_STEPS") = cpu::AreaDesc().mostSteps;
     module.attr("DEFAULT_TABLE_SIZE") = kDefaultTableSize;
     module.attr("DEFAULT_MOST_STEPS") = cpu::ClearanceDesc().mostSteps;
     module.attr("DEFAULT_MOTION_RESOLUTION") = kDefaultMotionResolution;

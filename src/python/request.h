@@ -114,6 +114,15 @@ struct Distance {
     using Key = std::tuple<std::uint64_t, std::uint64_t, std::uint64_t, bool>;
 };
 
+/// How an area is measured.
+struct Extent {
+    double tolerance = 0;
+    std::uint64_t mostSteps = 0;
+
+    [[nodiscard]] auto key() const noexcept { return std::tuple(inKey(tolerance), mostSteps); }
+    using Key = std::tuple<std::uint64_t, std::uint64_t>;
+};
+
 /// The camera of a question; without one, the volume from above. Nothing where the projection has none.
 [[nodiscard]] View viewOf(const Question& question, const Grid& grid);
 /// A request of a mesh and poses, or of a list of these.

@@ -211,7 +211,7 @@ std::shared_ptr<Clearances> Scene::clearanceByDevice(std::shared_ptr<const Reque
     DeviceSide& side = onDevice(desc_.device);
     auto found = std::make_shared<Clearances>();
     found->request = request;
-    found->toLabels = question.toLabels;
+    found->byLabel = question.toLabels;
     found->labels = labels ? std::move(*labels) : std::vector<std::int32_t>();
     inPieces(request->pairs, firstPiece(*request, kClearanceCost * (1 + found->labels.size()), kFirstOnDevice),
              DeviceSide::mostPairs(*request, question, found->labels.size()), progress,
@@ -233,12 +233,33 @@ std::shared_ptr<Clearances> Scene::labelClearance(std::shared_ptr<const Request>
     HostSide& side = host();
     auto found = std::make_shared<Clearances>();
     found->request = request;
-    found->toLabels = true;
+    found->byLabel = true;
     found->labels = std::move(labels);
     inPieces(request->pairs, firstOnHost(*request, kClearanceCost * (1 + found->labels.size()), side.threads()),
              kMostHostPairs, progress, [&](std::size_t first, std::size_t count) {
                  found->add(side.measureLabels({*request, first, count}, distance, desc_.threshold, desc_.labels.get(),
                                                found->labels));
+             });
+    return found;
+}
+
+std::shared_ptr<Areas> Scene::area(std::shared_ptr<const Request> request, const Extent& extent,
+                                   std::optional<std::vector<std::int32_t>> labels, const Progress& progress) {
+    const Turns::Turn turn(turns_);
+    checkOpen();
+    HostSide& side = host();
+    auto found = std::make_shared<Areas>();
+    found->request = request;
+    found->byLabel = labels.has_value();
+    found->labels = labels ? std::move(*labels) : std::vector<std::int32_t>();
+    inPieces(request->pairs, firstOnHost(*request, kClearanceCost, side.threads()), kMostHostPairs, progress,
+             [&](std::size_t first, std::size_t count) {
+                 const Part part{*request, first, count};
+                 if (found->byLabel) {
+                     found->add(side.measureLabels(part, extent, desc_.threshold, desc_.labels.get(), found->labels));
+                 } else {
+                     found->add(side.measure(part, extent, desc_.threshold));
+                 }
              });
     return found;
 }

@@ -55,6 +55,10 @@ class Scene {
     [[nodiscard]] std::shared_ptr<Clearances> labelClearance(std::shared_ptr<const Request> request,
                                                              const Distance& distance, std::vector<std::int32_t> labels,
                                                              const Progress& progress);
+    /// `labels`: in each of these.
+    [[nodiscard]] std::shared_ptr<Areas> area(std::shared_ptr<const Request> request, const Extent& extent,
+                                              std::optional<std::vector<std::int32_t>> labels,
+                                              const Progress& progress);
     /// By the host, or by the device of a scene that has one.
     [[nodiscard]] std::shared_ptr<Answer> within(const std::shared_ptr<const Request>& request, double margin,
                                                  bool byDevice, const Progress& progress);

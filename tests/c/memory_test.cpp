@@ -167,6 +167,37 @@ TEST_F(Memory, OfClearances) {
     }
 }
 
+TEST_F(Memory, OfAreas) {
+    expectTightCreation<vxt_areas>("areas", vxt_areas_destroy, [](auto out) { return vxt_areas_create(out); });
+    for (const std::uint32_t threads : {1U, 3U}) {
+        vxt_host_area_desc desc = vxt_host_area_desc_init();
+        desc.threads = threads;
+        desc.tolerance = 1e-3;
+        vxt_host_area_meter* meter = nullptr;
+        const Owned<vxt_areas> out = made<vxt_areas>(vxt_areas_destroy, [](auto o) { return vxt_areas_create(o); });
+        const std::int32_t asked[] = {1, 3};
+        for (const bool byLabel : {false, true}) {
+            const auto ask = [&] {
+                vxt_host_area_meter_destroy(meter);
+                const vxt_result ready = vxt_host_area_meter_create(&desc, &meter);
+                return ready != VXT_OK ? ready
+                       : byLabel       ? vxt_host_area_meter_measure_labels(meter, &c_.batch, asked, 2, out.get())
+                                       : vxt_host_area_meter_measure(meter, &c_.batch, out.get());
+            };
+            const auto measured = [&] {
+                vxt_area_view view = vxt_area_view_init();
+                need(vxt_areas_get(out.get(), &view));
+                return byLabel ? view.labels[1].hi : view.pairs[0].hi;
+            };
+            need(ask());
+            const double expected = measured();
+            EXPECT_TRUE(byLabel || expected > 0);
+            expectTight(byLabel ? "area by label" : "area", ask, [&] { EXPECT_EQ(measured(), expected); });
+        }
+        vxt_host_area_meter_destroy(meter);
+    }
+}
+
 TEST_F(Memory, AMeterThatNeverHadItsMemoryGetsItInTheNextCall) {
     vxt_host_clearance_desc desc = vxt_host_clearance_desc_init();
     desc.threads = 1;

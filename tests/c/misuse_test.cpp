@@ -31,6 +31,7 @@ template <class T> T* stale() {
 
 TEST(CMisuse, EndingNothingIsNothing) {
     vxt_answer_destroy(nullptr);
+    vxt_areas_destroy(nullptr);
     vxt_blocking_detector_destroy(nullptr);
     vxt_box_pairs_destroy(nullptr);
     vxt_clearances_destroy(nullptr);
@@ -38,6 +39,7 @@ TEST(CMisuse, EndingNothingIsNothing) {
     vxt_control_points_destroy(nullptr);
     vxt_detector_destroy(nullptr);
     vxt_features_destroy(nullptr);
+    vxt_host_area_meter_destroy(nullptr);
     vxt_host_clearance_meter_destroy(nullptr);
     vxt_host_clearance_tracker_destroy(nullptr);
     vxt_host_detector_destroy(nullptr);
@@ -238,6 +240,7 @@ TEST(CMisuse, NumbersThatAreNoneAreRefusedByName) {
     EXPECT_STREQ(vxt_filter_name(static_cast<vxt_filter>(99)), "unknown");
     EXPECT_STREQ(vxt_boundary_name(static_cast<vxt_boundary>(99)), "unknown");
     EXPECT_STREQ(vxt_exactness_name(static_cast<vxt_exactness>(99)), "unknown");
+    EXPECT_STREQ(vxt_area_end_name(static_cast<vxt_area_end>(99)), "unknown");
     EXPECT_STREQ(vxt_clearance_end_name(static_cast<vxt_clearance_end>(99)), "unknown");
     EXPECT_STREQ(vxt_interpolation_name(static_cast<vxt_interpolation>(99)), "unknown");
     EXPECT_STREQ(vxt_motion_end_name(static_cast<vxt_motion_end>(99)), "unknown");

@@ -26,22 +26,6 @@ class ClearanceTest : public CliTest {
         all.insert(all.end(), more.begin(), more.end());
         return all;
     }
-    static std::vector<std::map<std::string, std::string>> rowsOf(const std::string& text) {
-        std::vector<std::map<std::string, std::string>> rows;
-        std::vector<std::string> names;
-        for (const std::string& line : linesOf(text)) {
-            const std::vector<std::string> fields = fieldsOf(line);
-            if (names.empty()) {
-                names = fields;
-                continue;
-            }
-            rows.emplace_back();
-            for (std::size_t i = 0; i < fields.size(); ++i) {
-                rows.back()[names.at(i)] = fields[i];
-            }
-        }
-        return rows;
-    }
     [[nodiscard]] std::vector<std::map<std::string, std::string>> rows(const Arguments& more,
                                                                        const RunOptions& options = {}) const {
         return rowsOf(output(detect(more), options));

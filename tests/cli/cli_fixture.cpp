@@ -129,6 +129,23 @@ std::vector<std::string> fieldsOf(const std::string& line) {
     return fields;
 }
 
+std::vector<std::map<std::string, std::string>> rowsOf(const std::string& text) {
+    std::vector<std::map<std::string, std::string>> rows;
+    std::vector<std::string> names;
+    for (const std::string& line : linesOf(text)) {
+        const std::vector<std::string> fields = fieldsOf(line);
+        if (names.empty()) {
+            names = fields;
+            continue;
+        }
+        rows.emplace_back();
+        for (std::size_t i = 0; i < fields.size(); ++i) {
+            rows.back()[names.at(i)] = fields[i];
+        }
+    }
+    return rows;
+}
+
 std::string readText(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};

@@ -42,6 +42,8 @@ std::string withoutProgress(const std::string& err);
 std::vector<std::string> linesOf(const std::string& text);
 /// Fields without quotes only.
 std::vector<std::string> fieldsOf(const std::string& line);
+/// Of CSV: by the names of its first line.
+std::vector<std::map<std::string, std::string>> rowsOf(const std::string& text);
 std::string readText(const std::filesystem::path& path);
 void writeText(const std::filesystem::path& path, const std::string& text);
 

@@ -17,6 +17,7 @@ MEMBERS = {
     vx.Answer: ("hit", "possible", "count", "exact", "item", "pose", "device_seconds", "seconds", "method", "projection",
                 "triangles", "contacts", "contacts_found", "bounds", "labels"),
     vx.Clearance: ("lo", "hi", "end", "labels", "item", "pose", "seconds"),
+    vx.Area: ("lo", "hi", "end", "labels", "item", "pose", "seconds"),
     vx.Motion: ("hit", "possible", "free_until", "touch_at", "touches", "end", "item", "pose", "seconds"),
     vx.Plan: ("safe", "possible", "clearance", "entries", "paths", "best", "triangles", "triangle_safe",
               "triangle_clearance", "area", "safe_area", "left_out", "seconds"),
@@ -33,7 +34,8 @@ def answers(labelled, knife):
     poses = random_poses(6, 1, 100.0)
     return [labelled.detect([(knife, poses[:4]), (knife, poses[4:])], triangles=True, contacts=True, bounds=True, labels=True),
             labelled.clearance(knife, poses), labelled.clearance(knife, poses, labels=["Skull", 70]),
-            labelled.motion(knife, poses), labelled.plan((20, 0, 30), avoid=["Skull"], entries=100, triangle_clearances=True)]
+            labelled.motion(knife, poses), labelled.plan((20, 0, 30), avoid=["Skull"], entries=100, triangle_clearances=True),
+            labelled.area(knife, poses), labelled.area(knife, poses, labels=["Skull", 70])]
 
 
 def same(a, b):
@@ -104,7 +106,7 @@ def test_workers_can_return_them():
 
 
 def test_none_is_true_or_false(answers):
-    asked = {vx.Answer: ".hit", vx.Clearance: ".lo and .hi", vx.Motion: ".hit", vx.Plan: ".safe"}
+    asked = {vx.Answer: ".hit", vx.Clearance: ".lo and .hi", vx.Area: ".lo and .hi", vx.Motion: ".hit", vx.Plan: ".safe"}
     for answer in [*answers, copy.copy(answers[0])]:
         with pytest.raises(TypeError) as caught:
             bool(answer)
@@ -122,6 +124,9 @@ def test_labels_that_no_voxel_has_are_warned_of(labelled, knife, recwarn):
     assert np.isinf(left.lo[0, 0]) and np.isfinite(left.lo[0, 1])
     with pytest.warns(UserWarning, match="has the labels 253, 254; clearances to them are infinite") as caught:
         labelled.clearance(knife, pose, labels=[254, 253], labels_at_any_opacity=True)
+    assert caught[0].filename == __file__
+    with pytest.warns(UserWarning, match="^labels: no voxel of the label map has the label 254; areas in it are 0$") as caught:
+        assert labelled.area(knife, pose, labels=[254]).hi.tolist() == [[0]]
     assert caught[0].filename == __file__
 
 

@@ -86,6 +86,16 @@ def test_clearances_are_those_of_the_program(files):
     assert (found.lo > 0).any() and (found.lo == 0).any(), "the poses say nothing"
 
 
+def test_areas_are_those_of_the_program(files):
+    scene, mesh, poses = asked(files)
+    rows = ask_program(files, "--area", "--area-tolerance", "0.01")
+    found = scene.area(mesh, poses, tolerance=0.01)
+    np.testing.assert_allclose(found.lo, [float(row["area_lo"]) for row in rows], atol=1e-6)
+    np.testing.assert_allclose(found.hi, [float(row["area_hi"]) for row in rows], atol=1e-6)
+    assert (found.lo > 0).any() and (found.hi == 0).any(), "the poses say nothing"
+    np.testing.assert_array_equal(found.lo > 0, [row["hit"] == "1" for row in rows])
+
+
 def test_what_was_not_asked_for_is_found_when_it_is_looked_at(scene, knife):
     poses = random_poses(6, 1)
     later, sooner = scene.detect(knife, poses), scene.detect(knife, poses, contacts=True, triangles=True, bounds=True)
@@ -212,6 +222,12 @@ def test_labels(head, knife):
     assert scene.clearance(knife, np.eye(4), labels=True).lo.shape == (1, len(labels.values) - 1)
     with pytest.raises(vx.NotReadyError, match="closest"):
         found.closest
+    poses = random_poses(5, 11)
+    whole, parts = scene.area(knife, poses, tolerance=1e-3), scene.area(knife, poses, tolerance=1e-3, labels=labels.values.tolist())
+    assert parts.lo.shape == parts.hi.shape == parts.end.shape == (5, len(labels.values))
+    assert whole.lo.max() > 0 and (parts.lo.sum(axis=1) <= whole.hi).all() and (parts.hi.sum(axis=1) >= whole.lo).all()
+    np.testing.assert_array_equal(scene.area(knife, poses, tolerance=1e-3, labels=["brain"]).lo[:, 0],
+                                  parts.lo[:, labels.values.tolist().index(90)])
 
 
 def test_labels_are_taken_as_they_are(head):
@@ -230,7 +246,7 @@ def test_labels_are_taken_as_they_are(head):
 def test_no_poses(scene, knife):
     assert len(scene.detect(knife, []).count) == 0
     assert len(scene.detect([(knife, []), (knife, np.eye(4))]).count) == 1
-    for answer in (scene.clearance(knife, []).lo, scene.within(knife, [], margin=1).hit,
+    for answer in (scene.clearance(knife, []).lo, scene.area(knife, []).lo, scene.within(knife, [], margin=1).hit,
                    scene.around(knife, [], distance=1, angle=1).hit):
         assert len(answer) == 0
     with pytest.raises(TypeError, match="generator"):
@@ -246,6 +262,26 @@ def test_bounds_of_clearances(scene, knife):
     assert tight.hi[0] - tight.lo[0] <= 1e-3 and loose.lo[0] <= tight.hi[0] and tight.lo[0] <= loose.hi[0]
     with pytest.raises(vx.InvalidArgumentError, match="tolerance"):
         scene.clearance(knife, far, tolerance=0)
+
+
+def test_bounds_of_areas(scene, knife):
+    inside = placed((0, 0, 0))
+    tight, loose = scene.area(knife, inside, tolerance=1e-3), scene.area(knife, inside, tolerance=10)
+    assert tight.end.tolist() == loose.end.tolist() == ["closed"]
+    assert 0 < tight.hi[0] - tight.lo[0] <= 1e-3 and loose.lo[0] <= tight.hi[0] and tight.lo[0] <= loose.hi[0]
+    few = scene.area(knife, inside, tolerance=1e-6, most_steps=1)
+    assert few.end.tolist() == ["budget"] and few.lo[0] <= tight.hi[0] and tight.lo[0] <= few.hi[0]
+    faces = knife.vertices[knife.faces].astype(float)
+    surface = np.linalg.norm(np.cross(faces[:, 1] - faces[:, 0], faces[:, 2] - faces[:, 0]), axis=1).sum() / 2
+    assert tight.lo[0] < surface
+    assert scene.area(knife, placed((1000, 0, 0))).hi.tolist() == [0]
+    for wrong in (0, -1, np.nan, np.inf):
+        with pytest.raises(vx.InvalidArgumentError, match="tolerance"):
+            scene.area(knife, inside, tolerance=wrong)
+    with pytest.raises(vx.InvalidArgumentError, match="areas in labels need a scene with labels="):
+        scene.area(knife, inside, labels=[1])
+    with pytest.raises(vx.InvalidArgumentError, match="most_steps"):
+        scene.area(knife, inside, most_steps=0)
 
 
 def test_a_camera(scene, knife):
@@ -338,6 +374,7 @@ def test_plots(scene, knife):
     axes = scene.detect(knife, random_poses(9, 14)).plot()
     assert axes.get_xlabel() == "pose"
     assert scene.clearance(knife, random_poses(9, 14), maximum=3).plot().get_ylabel() == "mm"
+    assert scene.area(knife, random_poses(9, 14)).plot().get_ylabel() == "mm²"
 
 
 def test_what_is_hardly_meant_to_be_opaque_is_warned_of():

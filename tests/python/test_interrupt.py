@@ -45,7 +45,7 @@ except KeyboardInterrupt:
 # opaque, or, for distances, a plate in the middle of a gap, all of it about as near.
 ALONE = BEGIN + """
 side = 96
-if sys.argv[1] == "detect":
+if sys.argv[1] in ("detect", "area"):
     x, y, z = np.meshgrid(*[np.arange(side)] * 3, indexing="ij")
     voxels = np.where((7 * x + 5 * y + 3 * z) % 4 < 2, 255, 0).astype(np.uint8)
     angle = np.linspace(0, 3, 20_000)
@@ -74,6 +74,7 @@ back[:2, 3] = -48
 poses = np.stack([middle @ back, middle @ turn @ back])
 ask = {"detect": lambda: scene.detect(mesh, np.eye(4)),
        "clearance": lambda: scene.clearance(mesh, np.eye(4), tolerance=1e-6, most_steps=2**32 - 1),
+       "area": lambda: scene.area(mesh, np.eye(4), tolerance=1e-9, most_steps=2**32 - 1),
        "motion": lambda: scene.motion(mesh, poses, resolution=1e-6, most_steps=2**32 - 1)}[sys.argv[1]]
 scene.detect(mesh, np.diag([1e-9, 1e-9, 1e-9, 1]))  # what is made once
 press(0.1)
@@ -105,12 +106,12 @@ def check(script, question=""):
     assert float(done.stdout.split()[2]) < 1, done.stdout
 
 
-@pytest.mark.parametrize("question", ["detect", "clearance", "within", "motion", "around"])
+@pytest.mark.parametrize("question", ["detect", "clearance", "area", "within", "motion", "around"])
 def test_ctrl_c_stops_a_long_batch_within_a_second(question):
     check(BATCH, question)
 
 
-@pytest.mark.parametrize("question", ["detect", "clearance", "motion"])
+@pytest.mark.parametrize("question", ["detect", "clearance", "area", "motion"])
 def test_ctrl_c_stops_a_long_pose_within_a_second(question):
     check(ALONE, question)
 

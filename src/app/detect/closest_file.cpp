@@ -13,7 +13,7 @@ namespace voxtact::app {
 
 namespace {
 
-/// A nanometre: more digits say nothing.
+/// Of a millimetre or its square: more digits say nothing.
 constexpr double kParts = 1e6;
 
 std::string rounded(double value) {
@@ -22,6 +22,18 @@ std::string rounded(double value) {
 
 std::string joined(const Vec3& vector, char between) {
     return rounded(vector[0]) + between + rounded(vector[1]) + between + rounded(vector[2]);
+}
+
+/// What was measured of one label.
+template <class Measured>
+void writeLabelBounds(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs, const Row& row,
+                      const Measured& measured) {
+    const PairJobs& jobs = options.jobs;
+    const Job& job = jobs.jobs[row.job];
+    const auto bounds = roundedOutward(measured.bounds);
+    out << row.pose << ',' << io::csvField(jobs.meshes[job.mesh]) << ',' << io::csvField(jobs.volumes[job.volume])
+        << ',' << measured.label << ',' << io::csvField(labelName(inputs, measured.label)) << ',' << number(bounds.lo)
+        << ',' << number(bounds.hi) << (jobs.fromFile ? "," + std::to_string(row.job) : "") << '\n';
 }
 
 std::int32_t labelOf(const DetectInputs& inputs, const Vec3& world) {
@@ -86,18 +98,26 @@ ClearanceBounds roundedOutward(const ClearanceBounds& bounds) {
     return {lowerRounded(bounds.lo, kParts), upperRounded(bounds.hi, kParts)};
 }
 
+AreaBounds roundedOutward(const AreaBounds& bounds) {
+    return {lowerRounded(bounds.lo, kParts), upperRounded(bounds.hi, kParts)};
+}
+
 void writeLabelClearanceHeader(std::ostream& out, const DetectOptions& options) {
     out << "pose,mesh,volume,label,name,clearance_lo,clearance_hi" << (options.jobs.fromFile ? ",job\n" : "\n");
 }
 
 void writeLabelClearance(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs, const Row& row,
                          const LabelClearance& clearance) {
-    const PairJobs& jobs = options.jobs;
-    const Job& job = jobs.jobs[row.job];
-    const ClearanceBounds bounds = roundedOutward(clearance.bounds);
-    out << row.pose << ',' << io::csvField(jobs.meshes[job.mesh]) << ',' << io::csvField(jobs.volumes[job.volume])
-        << ',' << clearance.label << ',' << io::csvField(labelName(inputs, clearance.label)) << ',' << number(bounds.lo)
-        << ',' << number(bounds.hi) << (jobs.fromFile ? "," + std::to_string(row.job) : "") << '\n';
+    writeLabelBounds(out, options, inputs, row, clearance);
+}
+
+void writeLabelAreaHeader(std::ostream& out, const DetectOptions& options) {
+    out << "pose,mesh,volume,label,name,area_lo,area_hi" << (options.jobs.fromFile ? ",job\n" : "\n");
+}
+
+void writeLabelArea(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs, const Row& row,
+                    const LabelArea& area) {
+    writeLabelBounds(out, options, inputs, row, area);
 }
 
 bool isClosestEnding(const std::filesystem::path& path) {

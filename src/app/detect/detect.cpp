@@ -28,6 +28,7 @@ constexpr const char* kDetectFooter =
   contacts,depth (--contacts)  how many contacts there are, and the deepest in mm
   labels (--labels)            survivors by label, most first: Frontal_Sup_L:12;Precentral_L:3
   min_x,...,max_z (--bounds)   world box of the survivors in mm
+  area_lo,area_hi              (--area) bounds of the area of the surface that is opaque, mm^2
   clearance_lo,clearance_hi    (--clearance) bounds of the distance to what is opaque, mm; 0,0: it touches;
                                inf,inf: nothing is opaque; hi inf: beyond --max-clearance
   job (--jobs)                 number of the job, from 0
@@ -129,7 +130,8 @@ Result<void> checkDetectPaths(const DetectOptions& options) {
                                          {"--triangles", extra.triangles},
                                          {"--contacts", extra.contacts},
                                          {"--closest", options.distance.closest},
-                                         {"--label-clearance", options.distance.labels}};
+                                         {"--label-clearance", options.distance.labels},
+                                         {"--label-area", options.distance.labelAreas}};
     return checkOutputs(outputs, inputs);
 }
 
@@ -258,7 +260,8 @@ Outcome runDetect(const CLI::App& parser, DetectOptions options) {
         return interruptedOutcome(options, *output);
     }
     VOXTACT_TRY(output->finish(milliseconds));
-    for (const std::string& note : {output->noteOfContacts(), output->clearanceEnds().note()}) {
+    for (const std::string& note :
+         {output->noteOfContacts(), output->clearanceEnds().note(), output->areaEnds().note()}) {
         if (!note.empty()) {
             notes.push_back(note);
         }
@@ -282,9 +285,19 @@ void addDistanceOptions(CLI::App& parser, DistanceOptions& options) {
     addPath(parser, "--label-clearance", options.labels,
             "a CSV file for the clearance to each label of --labels: "
             "pose,mesh,volume,label,name,clearance_lo,clearance_hi");
+    parser.add_flag("--area", options.area,
+                    "adds area_lo and area_hi: between them lies how much of the surface is opaque, in mm^2; by the "
+                    "host");
+    addNumber(
+        parser, "--area-tolerance", [&options](double mm2) { options.areaTolerance = mm2; },
+        "mm^2, how near to each other these are brought", [](double mm2) { return mm2 >= 1e-9; }, "at least 1e-9",
+        "0.1");
+    addPath(parser, "--label-area", options.labelAreas,
+            "a CSV file for the area in each label of --labels: pose,mesh,volume,label,name,area_lo,area_hi");
     parser
         .add_option("--to", options.to,
-                    "the labels that --label-clearance is about, by number or name; default: all but 0")
+                    "the labels that --label-clearance and --label-area are about, by number or name; default: all "
+                    "but 0")
         ->delimiter(',')
         ->type_name("LABEL,...");
     parser.add_flag("--to-any-opacity", options.toAnyOpacity,

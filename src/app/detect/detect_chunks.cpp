@@ -39,7 +39,8 @@ void addEngineFacts(RunFacts& facts, const PairEngine& engine) {
 MergePaths sideFiles(const DetectOptions& options) {
     return {{"--triangles", options.extra.triangles},
             {"--closest", options.distance.closest},
-            {"--label-clearance", options.distance.labels}};
+            {"--label-clearance", options.distance.labels},
+            {"--label-area", options.distance.labelAreas}};
 }
 
 Result<void> checkDetectChunks(const DetectOptions& options) {
@@ -100,7 +101,8 @@ Outcome answerChunks(const DetectOptions& options, DetectInputs& inputs, RunFact
         }
     }
     PairAsker asker(options, inputs, engine);
-    ClearanceEnds ends; // of what this process does
+    OpenBounds clearances; // of what this process does
+    OpenBounds areas;
     const DoChunk doChunk = [&](const ChunkRange& range, const ChunkFiles& files,
                                 const std::function<void(std::uint64_t)>& done) -> Result<void> {
         Result<DetectOutput> output = DetectOutput::createChunk(options, inputs, files);
@@ -109,7 +111,8 @@ Outcome answerChunks(const DetectOptions& options, DetectInputs& inputs, RunFact
         pairs.first = range.first;
         pairs.count = range.count;
         VOXTACT_TRY(asker.answer(pairs, *output, [&] { done(output->rows()); }));
-        ends.add(output->clearanceEnds());
+        clearances.add(output->clearanceEnds());
+        areas.add(output->areaEnds());
         return interrupted() ? Result<void>() : output->finish(0);
     };
     ChunkedRun run{"voxtact detect",
@@ -119,8 +122,10 @@ Outcome answerChunks(const DetectOptions& options, DetectInputs& inputs, RunFact
                    options.progress};
     Outcome outcome = doChunks(std::move(run), doChunk, paths, notes);
     asker.addTo(notes);
-    if (!ends.note().empty()) {
-        notes.push_back(ends.note());
+    for (const OpenBounds& open : {clearances, areas}) {
+        if (!open.note().empty()) {
+            notes.push_back(open.note());
+        }
     }
     return outcome;
 }

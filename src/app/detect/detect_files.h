@@ -49,8 +49,13 @@ void writeClosestRows(std::ostream& out, const DetectOptions& options, const Det
 void writeLabelClearanceHeader(std::ostream& out, const DetectOptions& options);
 void writeLabelClearance(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs, const Row& row,
                          const LabelClearance& clearance);
-/// Rounded to a nanometre, down or up, so that they stay bounds.
+/// pose,mesh,volume,label,name,area_lo,area_hi; with --jobs also job.
+void writeLabelAreaHeader(std::ostream& out, const DetectOptions& options);
+void writeLabelArea(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs, const Row& row,
+                    const LabelArea& area);
+/// Rounded to a millionth, down or up, so that they stay bounds.
 [[nodiscard]] ClearanceBounds roundedOutward(const ClearanceBounds& bounds);
+[[nodiscard]] AreaBounds roundedOutward(const AreaBounds& bounds);
 
 /// By the ending of --contacts.
 void writeContacts(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs,

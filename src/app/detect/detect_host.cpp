@@ -21,13 +21,19 @@ struct HostVolume {
     std::uint64_t bytes = 0;
 };
 
+/// What answers in addition to a detector, where it is asked for.
+struct HostMeters {
+    std::optional<cpu::ClearanceMeter> clearance{};
+    std::optional<cpu::AreaMeter> area{};
+    std::optional<cpu::MotionChecker> motion{};
+};
+
 class HostEngine : public PairEngine {
   public:
-    HostEngine(const DetectOptions& options, const DetectInputs& inputs, cpu::Detector detector,
-               std::optional<cpu::ClearanceMeter> meter, std::optional<cpu::MotionChecker> checker,
+    HostEngine(const DetectOptions& options, const DetectInputs& inputs, cpu::Detector detector, HostMeters meters,
                std::vector<cpu::Mesh> meshes)
-        : options_(options), inputs_(inputs), detector_(std::move(detector)), meter_(std::move(meter)),
-          checker_(std::move(checker)), meshes_(std::move(meshes)), shelf_(options.jobs, kMostHostVolumeBytes),
+        : options_(options), inputs_(inputs), detector_(std::move(detector)), meters_(std::move(meters)),
+          meshes_(std::move(meshes)), shelf_(options.jobs, kMostHostVolumeBytes),
           pace_(pairsPerBatch(options, inputs, 1), options.batch.has_value() || options.timing) {}
 
     [[nodiscard]] std::string device() const override { return "host"; }
@@ -50,12 +56,13 @@ class HostEngine : public PairEngine {
     [[nodiscard]] Result<BatchAnswer> answer(const cpu::Batch& batch);
     [[nodiscard]] Result<ClearanceAnswer> measure(const cpu::Batch& batch);
     [[nodiscard]] Result<LabelClearanceAnswer> measureLabels(const cpu::Batch& batch);
+    [[nodiscard]] Result<AreaAnswer> measureArea(const cpu::Batch& batch);
+    [[nodiscard]] Result<LabelAreaAnswer> measureLabelAreas(const cpu::Batch& batch);
 
     const DetectOptions& options_;
     const DetectInputs& inputs_;
     cpu::Detector detector_;
-    std::optional<cpu::ClearanceMeter> meter_;  ///< where something is asked for about distances
-    std::optional<cpu::MotionChecker> checker_; ///< the same
+    HostMeters meters_;
     std::vector<cpu::Mesh> meshes_;
     VolumeShelf<HostVolume> shelf_;
     HostVolume* volume_ = nullptr;
@@ -87,14 +94,14 @@ Result<Grid> HostEngine::use(std::uint32_t job) {
 /// Does it touch, or does what is within the margin, or a pose within the tolerance.
 Result<BatchAnswer> HostEngine::answer(const cpu::Batch& batch) {
     const DistanceOptions& distance = options_.distance;
-    return distance.margin          ? meter_->within(batch, *distance.margin)
-           : distance.poseTolerance ? checker_->around(batch, *distance.poseTolerance)
+    return distance.margin          ? meters_.clearance->within(batch, *distance.margin)
+           : distance.poseTolerance ? meters_.motion->around(batch, *distance.poseTolerance)
                                     : detector_.detect(batch);
 }
 
 /// Nothing where clearances are not asked for.
 Result<ClearanceAnswer> HostEngine::measure(const cpu::Batch& batch) {
-    return options_.distance.clearance ? meter_->measure(batch) : ClearanceAnswer{};
+    return options_.distance.clearance ? meters_.clearance->measure(batch) : ClearanceAnswer{};
 }
 
 /// Nothing where these are not asked for.
@@ -102,7 +109,20 @@ Result<LabelClearanceAnswer> HostEngine::measureLabels(const cpu::Batch& batch) 
     if (options_.distance.labels.empty()) {
         return LabelClearanceAnswer{};
     }
-    return meter_->measureLabels(batch, inputs_.measured);
+    return meters_.clearance->measureLabels(batch, inputs_.measured);
+}
+
+/// Nothing where areas are not asked for.
+Result<AreaAnswer> HostEngine::measureArea(const cpu::Batch& batch) {
+    return options_.distance.area ? meters_.area->measure(batch) : AreaAnswer{};
+}
+
+/// Nothing where these are not asked for.
+Result<LabelAreaAnswer> HostEngine::measureLabelAreas(const cpu::Batch& batch) {
+    if (options_.distance.labelAreas.empty()) {
+        return LabelAreaAnswer{};
+    }
+    return meters_.area->measureLabels(batch, inputs_.measured);
 }
 
 Result<void> HostEngine::answer(const Window& window, WindowRows& rows, const std::function<bool()>& stop) {
@@ -122,7 +142,12 @@ Result<void> HostEngine::answer(const Window& window, WindowRows& rows, const st
         VOXTACT_TRY(measured);
         const Result<LabelClearanceAnswer> labels = measureLabels(batch);
         VOXTACT_TRY(labels);
-        const double milliseconds = answered->wallMilliseconds + measured->wallMilliseconds + labels->wallMilliseconds;
+        const Result<AreaAnswer> areas = measureArea(batch);
+        VOXTACT_TRY(areas);
+        const Result<LabelAreaAnswer> labelAreas = measureLabelAreas(batch);
+        VOXTACT_TRY(labelAreas);
+        const double milliseconds = answered->wallMilliseconds + measured->wallMilliseconds + labels->wallMilliseconds +
+                                    areas->wallMilliseconds + labelAreas->wallMilliseconds;
         device::TimedAnswer timed;
         timed.gpuMilliseconds = 0;
         timed.wallMilliseconds = milliseconds / static_cast<double>(answered->pairs.size());
@@ -138,6 +163,12 @@ Result<void> HostEngine::answer(const Window& window, WindowRows& rows, const st
         for (const LabelClearance& clearance : labels->labels) {
             rows.addClearance(clearance);
         }
+        for (const PairArea& area : areas->pairs) {
+            rows.addArea(area);
+        }
+        for (const LabelArea& area : labelAreas->labels) {
+            rows.addArea(area);
+        }
         rows.endBatch(*answered);
         pace_.took(static_cast<std::uint32_t>(answered->pairs.size()), milliseconds);
     }
@@ -148,6 +179,37 @@ Result<void> checkLimits(const DetectOptions& options) {
     return !usesView(*options.method.projection)
                ? Result<void>()
                : checkViewport(options.view.size, {cpu::kMaxViewport, cpu::kMaxViewport}, "the counting method cpu");
+}
+
+Result<HostMeters> metersFor(const DetectOptions& options) {
+    const double resolution = options.method.resolution.value_or(kDefaultResolution);
+    const DistanceOptions& distance = options.distance;
+    HostMeters meters;
+    if (distance.poseTolerance) {
+        Result<cpu::MotionChecker> made =
+            cpu::MotionChecker::create({.threads = options.threads, .touchResolution = resolution});
+        VOXTACT_TRY(made);
+        meters.motion = std::move(*made);
+    }
+    if (distance.clearance || distance.margin) {
+        const ClearanceSearch search = distance.search();
+        Result<cpu::ClearanceMeter> made = cpu::ClearanceMeter::create({.threads = options.threads,
+                                                                        .tolerance = search.tolerance,
+                                                                        .maximum = search.maximum,
+                                                                        .resolution = resolution,
+                                                                        .labelsAtAnyOpacity = distance.toAnyOpacity});
+        VOXTACT_TRY(made);
+        meters.clearance = std::move(*made);
+    }
+    if (distance.area) {
+        Result<cpu::AreaMeter> made =
+            cpu::AreaMeter::create({.threads = options.threads,
+                                    .tolerance = distance.areaTolerance.value_or(kDefaultAreaTolerance),
+                                    .resolution = resolution});
+        VOXTACT_TRY(made);
+        meters.area = std::move(*made);
+    }
+    return meters;
 }
 
 } // namespace
@@ -171,26 +233,9 @@ Result<void> withHostEngine(const DetectOptions& options, const DetectInputs& in
         VOXTACT_TRY(mesh);
         meshes.push_back(std::move(*mesh));
     }
-    std::optional<cpu::ClearanceMeter> meter;
-    std::optional<cpu::MotionChecker> checker;
-    if (options.distance.poseTolerance) {
-        Result<cpu::MotionChecker> made = cpu::MotionChecker::create(
-            {.threads = options.threads, .touchResolution = method.resolution.value_or(kDefaultResolution)});
-        VOXTACT_TRY(made);
-        checker = std::move(*made);
-    }
-    if (options.distance.clearance || options.distance.margin) {
-        const ClearanceSearch search = options.distance.search();
-        Result<cpu::ClearanceMeter> made =
-            cpu::ClearanceMeter::create({.threads = options.threads,
-                                         .tolerance = search.tolerance,
-                                         .maximum = search.maximum,
-                                         .resolution = method.resolution.value_or(kDefaultResolution),
-                                         .labelsAtAnyOpacity = options.distance.toAnyOpacity});
-        VOXTACT_TRY(made);
-        meter = std::move(*made);
-    }
-    HostEngine engine(options, inputs, std::move(*detector), std::move(meter), std::move(checker), std::move(meshes));
+    Result<HostMeters> meters = metersFor(options);
+    VOXTACT_TRY(meters);
+    HostEngine engine(options, inputs, std::move(*detector), std::move(*meters), std::move(meshes));
     return answer(engine);
 }
 

@@ -16,7 +16,7 @@ namespace voxtact::app {
 
 namespace {
 
-/// The labels that clearances are measured to: a number need not be one that voxels have, a name must be.
+/// The labels that are measured: a number need not be one that voxels have, a name must be.
 Result<std::vector<std::int32_t>> measuredLabels(const DistanceOptions& options, const NamedLabels& labels) {
     std::vector<std::int32_t> measured;
     if (options.to.empty()) {
@@ -27,7 +27,8 @@ Result<std::vector<std::int32_t>> measuredLabels(const DistanceOptions& options,
         const std::optional<std::int32_t> number = labelNumber(word);
         Result<std::vector<std::int32_t>> meant = labelsOf(labels, word, "--to");
         if (number && !meant.ok()) {
-            printNote("--to: no voxel of the label map has the label " + word + "; clearances to it are infinite");
+            printNote("--to: no voxel of the label map has the label " + word +
+                      (options.labels.empty() ? "; areas in it are 0" : "; clearances to it are infinite"));
             meant = std::vector<std::int32_t>{*number};
         }
         VOXTACT_TRY(meant);
@@ -96,11 +97,11 @@ Result<DetectInputs> readDetectInputs(const DetectOptions& options) {
 }
 
 Result<void> checkMeasuredGrid(const DetectOptions& options, const DetectInputs& inputs, const Grid& volume) {
-    if (options.distance.labels.empty()) {
+    if (!options.distance.byLabel()) {
         return {};
     }
-    return checkLabelGrid(inputs.labels->grid, volume,
-                          "--label-clearance: " + forMessage(options.extra.labels.string()));
+    const char* const option = options.distance.labels.empty() ? "--label-area: " : "--label-clearance: ";
+    return checkLabelGrid(inputs.labels->grid, volume, option + forMessage(options.extra.labels.string()));
 }
 
 VolumeSettings settingsFor(const DetectOptions& options, const DetectInputs& inputs, std::uint32_t volume,

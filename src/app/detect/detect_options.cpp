@@ -87,6 +87,7 @@ Result<void> checkDeviceDistance(const DetectOptions& options) {
 Result<void> checkDistance(DetectOptions& options) {
     const DistanceOptions& distance = options.distance;
     const std::string clearance = "it is about clearances, and --clearance is not given";
+    const std::string area = "it is about areas, and --area is not given";
     for (const Result<void>& used :
          {checkUsed(distance.tolerance.has_value(), "--tolerance", distance.clearance, clearance),
           checkUsed(distance.maximum.has_value(), "--max-clearance", distance.clearance, clearance),
@@ -94,8 +95,12 @@ Result<void> checkDistance(DetectOptions& options) {
           checkUsed(!distance.labels.empty(), "--label-clearance", distance.clearance, clearance),
           checkUsed(!distance.labels.empty(), "--label-clearance", !options.extra.labels.empty(),
                     "it is about labels, and --labels is not given"),
-          checkUsed(!distance.to.empty(), "--to", !distance.labels.empty(),
-                    "it says which labels --label-clearance is about, and that is not given"),
+          checkUsed(distance.areaTolerance.has_value(), "--area-tolerance", distance.area, area),
+          checkUsed(!distance.labelAreas.empty(), "--label-area", distance.area, area),
+          checkUsed(!distance.labelAreas.empty(), "--label-area", !options.extra.labels.empty(),
+                    "it is about labels, and --labels is not given"),
+          checkUsed(!distance.to.empty(), "--to", distance.byLabel(),
+                    "it says which labels --label-clearance and --label-area are about, and neither is given"),
           checkUsed(distance.toAnyOpacity, "--to-any-opacity", !distance.labels.empty(),
                     "it says what --label-clearance is about, and that is not given")}) {
         if (!used.ok()) {
@@ -113,9 +118,12 @@ Result<void> checkDistance(DetectOptions& options) {
         return badArgument(
             "--margin: with --pose-tolerance the distance is its first number; leave out one of the two");
     }
-    const std::string option = distance.clearance ? "--clearance" : distance.margin ? "--margin" : "--pose-tolerance";
+    const std::string option = distance.area        ? "--area"
+                               : distance.clearance ? "--clearance"
+                               : distance.margin    ? "--margin"
+                                                    : "--pose-tolerance";
     options.extra.labelsOnlyMeasured =
-        !distance.labels.empty() && (options.answer == "yes-no" || isDistanceOnDevice(options));
+        distance.byLabel() && (options.answer == "yes-no" || isDistanceOnDevice(options));
     MethodOptions& method = options.method;
     if (method.count && !rowOf(*method.count).host && !isDistanceOnDevice(options)) {
         return badArgument(option + " is answered by the host; leave out --count " + toString(*method.count) +
@@ -178,8 +186,10 @@ Result<void> checkStats(const DetectOptions& options) {
         return {};
     }
     if (options.distance.any() && !isDistanceOnDevice(options)) {
-        return badArgument("--stats counts what a device does, and distances are the host's; leave it out, or give "
-                           "--count compute");
+        return badArgument(options.distance.area
+                               ? "--stats counts what a device does, and areas are the host's; leave out one of the two"
+                               : "--stats counts what a device does, and distances are the host's; leave it out, or "
+                                 "give --count compute");
     }
     if (options.method.count && rowOf(*options.method.count).host) {
         return badArgument("--stats: the counting method cpu counts nothing of what it does; leave it out, or give "

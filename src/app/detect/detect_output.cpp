@@ -26,8 +26,9 @@ constexpr auto kLongTextWait = std::chrono::seconds(3);
 constexpr std::size_t kFewTextRows = 32;
 constexpr std::size_t kManyTextRows = 4096;
 
-/// Of ClearanceEnd.
+/// Of ClearanceEnd, and of AreaEnd.
 constexpr std::size_t kClearanceEnds = static_cast<std::size_t>(ClearanceEnd::Budget) + 1;
+constexpr std::size_t kAreaEnds = static_cast<std::size_t>(AreaEnd::Budget) + 1;
 
 } // namespace
 
@@ -37,7 +38,7 @@ struct DetectOutput::State {
           // What validation says decides whether there is a table at all.
           held(how.output.path.empty() && how.device.validate) {}
 
-    void keepClearances(std::span<const Row> part);
+    void keepMeasured(std::span<const Row> part);
     Result<void> writeRows(std::span<const Row> part);
     Result<void> writeHeld();
     Result<void> pass();
@@ -54,6 +55,7 @@ struct DetectOutput::State {
     std::optional<ResultFile> contactsFile{};
     std::optional<ResultFile> closestFile{};
     std::optional<ResultFile> labelFile{};
+    std::optional<ResultFile> labelAreaFile{};
     bool chunk = false; ///< rows alone: what is before and behind them is the run's
     std::optional<io::TableWriter> writer{};
     io::NamedCells facts{};
@@ -66,10 +68,14 @@ struct DetectOutput::State {
     CertifiedCounters counters{}; ///< for --stats
     std::vector<KeptClosest> closest{};
     std::array<std::uint64_t, kClearanceEnds> ends{}; ///< rows by why their bounds are no nearer to each other
+    std::array<std::uint64_t, kAreaEnds> areaEnds{};
 };
 
-void DetectOutput::State::keepClearances(std::span<const Row> part) {
+void DetectOutput::State::keepMeasured(std::span<const Row> part) {
     for (const Row& row : part) {
+        if (row.area) {
+            ++areaEnds[static_cast<std::size_t>(row.area->end)];
+        }
         if (!row.clearance) {
             continue;
         }
@@ -117,7 +123,8 @@ Result<DetectOutput> DetectOutput::create(const DetectOptions& options, const De
          {std::pair(&options.output.path, &state->table), std::pair(&options.extra.triangles, &state->triangles),
           std::pair(&options.extra.contacts, &state->contactsFile),
           std::pair(&options.distance.closest, &state->closestFile),
-          std::pair(&options.distance.labels, &state->labelFile)}) {
+          std::pair(&options.distance.labels, &state->labelFile),
+          std::pair(&options.distance.labelAreas, &state->labelAreaFile)}) {
         if (path->empty()) {
             continue;
         }
@@ -131,6 +138,9 @@ Result<DetectOutput> DetectOutput::create(const DetectOptions& options, const De
     if (state->labelFile) {
         writeLabelClearanceHeader(state->labelFile->stream(), options);
     }
+    if (state->labelAreaFile) {
+        writeLabelAreaHeader(state->labelAreaFile->stream(), options);
+    }
     state->writer.emplace(state->out(), state->format);
     return DetectOutput(std::move(state));
 }
@@ -142,7 +152,8 @@ Result<DetectOutput> DetectOutput::createChunk(const DetectOptions& options, con
     Result<ResultFile> table = files.create("--output");
     VOXTACT_TRY(table);
     state->table = std::move(*table);
-    std::optional<ResultFile>* const sides[] = {&state->triangles, &state->closestFile, &state->labelFile};
+    std::optional<ResultFile>* const sides[] = {&state->triangles, &state->closestFile, &state->labelFile,
+                                                &state->labelAreaFile};
     const MergePaths paths = sideFiles(options);
     for (std::size_t i = 0; i < paths.size(); ++i) {
         if (!paths[i].second.empty()) {
@@ -171,8 +182,10 @@ std::vector<RunOutput> runOutputs(const DetectOptions& options, const DetectInpu
             writeTriangleHeader(sideHead, options);
         } else if (option == "--closest") {
             writeClosestHeader(sideHead, options, inputs);
-        } else {
+        } else if (option == "--label-clearance") {
             writeLabelClearanceHeader(sideHead, options);
+        } else {
+            writeLabelAreaHeader(sideHead, options);
         }
         outputs.push_back({option, option == "--closest" ? ".csv" : "", sideHead.str(), "", ""});
     }
@@ -194,7 +207,7 @@ Result<void> DetectOutput::add(std::span<const Row> rows) {
             }
         }
     }
-    state.keepClearances(rows);
+    state.keepMeasured(rows);
     if (state.format != io::Format::Text) {
         return state.writeRows(rows);
     }
@@ -217,6 +230,12 @@ void DetectOutput::addTriangle(const Row& row, const TouchedTriangle& touched) {
 void DetectOutput::addLabelClearance(const Row& row, const LabelClearance& clearance) {
     if (state_->labelFile) {
         writeLabelClearance(state_->labelFile->stream(), state_->options, state_->inputs, row, clearance);
+    }
+}
+
+void DetectOutput::addLabelArea(const Row& row, const LabelArea& area) {
+    if (state_->labelAreaFile) {
+        writeLabelArea(state_->labelAreaFile->stream(), state_->options, state_->inputs, row, area);
     }
 }
 
@@ -263,15 +282,15 @@ Result<void> DetectOutput::finish(double wallMilliseconds) {
         write(state.closestFile->stream(), state.options, state.inputs, state.closest);
     }
     // Nothing gets its name before all is written. What is on standard output cannot be taken back, and may fail.
-    for (std::optional<ResultFile>* file :
-         {&state.table, &state.triangles, &state.contactsFile, &state.closestFile, &state.labelFile}) {
+    for (std::optional<ResultFile>* file : {&state.table, &state.triangles, &state.contactsFile, &state.closestFile,
+                                            &state.labelFile, &state.labelAreaFile}) {
         VOXTACT_TRY(*file ? (*file)->close() : Result<void>());
     }
     state.held = false;
     VOXTACT_TRY(state.table ? Result<void>() : state.pass());
     std::vector<io::OutputFile*> all;
-    for (std::optional<ResultFile>* file :
-         {&state.labelFile, &state.closestFile, &state.contactsFile, &state.triangles, &state.table}) {
+    for (std::optional<ResultFile>* file : {&state.labelAreaFile, &state.labelFile, &state.closestFile,
+                                            &state.contactsFile, &state.triangles, &state.table}) {
         if (*file && (*file)->file() != nullptr) {
             all.push_back((*file)->file());
         }
@@ -304,24 +323,30 @@ std::string DetectOutput::noteOfContacts() const {
            std::to_string(state.options.extra.contactRoom()) + ")";
 }
 
-ClearanceEnds DetectOutput::clearanceEnds() const {
+OpenBounds DetectOutput::clearanceEnds() const {
     const auto of = [&](ClearanceEnd end) { return state_->ends[static_cast<std::size_t>(end)]; };
-    return {state_->rows, of(ClearanceEnd::Rounding), of(ClearanceEnd::Budget)};
+    return {"clearances", state_->rows, of(ClearanceEnd::Rounding), of(ClearanceEnd::Budget)};
 }
 
-void ClearanceEnds::add(const ClearanceEnds& more) {
+OpenBounds DetectOutput::areaEnds() const {
+    const auto of = [&](AreaEnd end) { return state_->areaEnds[static_cast<std::size_t>(end)]; };
+    return {"areas", state_->rows, of(AreaEnd::Rounding), of(AreaEnd::Budget)};
+}
+
+void OpenBounds::add(const OpenBounds& more) {
+    what = more.what;
     rows += more.rows;
     rounding += more.rounding;
     budget += more.budget;
 }
 
-std::string ClearanceEnds::note() const {
+std::string OpenBounds::note() const {
     if (rounding + budget == 0) {
         return {};
     }
-    return "the bounds of " + std::to_string(rounding + budget) + " of " + std::to_string(rows) +
-           " clearances are farther apart than the tolerance: rounding decides " + std::to_string(rounding) +
-           " of them, " + std::to_string(budget) + " took too many steps";
+    return "the bounds of " + std::to_string(rounding + budget) + " of " + std::to_string(rows) + " " + what +
+           " are farther apart than the tolerance: rounding decides " + std::to_string(rounding) + " of them, " +
+           std::to_string(budget) + " took too many steps";
 }
 
 } // namespace voxtact::app

@@ -11,13 +11,14 @@ namespace voxtact::app {
 struct ChunkFiles;
 struct RunOutput;
 
-/// Clearances whose bounds are farther apart than the tolerance.
-struct ClearanceEnds {
+/// Clearances or areas whose bounds are farther apart than the tolerance.
+struct OpenBounds {
+    const char* what = "clearances";
     std::uint64_t rows = 0; ///< all of them
     std::uint64_t rounding = 0;
     std::uint64_t budget = 0;
 
-    void add(const ClearanceEnds& more);
+    void add(const OpenBounds& more);
     /// Empty: there are none.
     [[nodiscard]] std::string note() const;
 };
@@ -40,6 +41,7 @@ class DetectOutput {
     [[nodiscard]] Result<void> add(std::span<const Row> rows);
     void addTriangle(const Row& row, const TouchedTriangle& touched);
     void addLabelClearance(const Row& row, const LabelClearance& clearance);
+    void addLabelArea(const Row& row, const LabelArea& area);
     /// False: as many are kept as there is room for.
     [[nodiscard]] bool keepContact(const Row& row, const Contact& contact);
     void countContacts(std::uint64_t found) noexcept;
@@ -57,7 +59,8 @@ class DetectOutput {
 
     /// A list that was cut is still a good run, with fewer contacts than there are; empty: it was not.
     [[nodiscard]] std::string noteOfContacts() const;
-    [[nodiscard]] ClearanceEnds clearanceEnds() const;
+    [[nodiscard]] OpenBounds clearanceEnds() const;
+    [[nodiscard]] OpenBounds areaEnds() const;
 
     struct State;
 

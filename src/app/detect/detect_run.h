@@ -10,6 +10,7 @@
 #include "app/options/shared_options.h"
 #include "app/output/output.h"
 #include "device/pair_pipeline.h"
+#include "voxtact/area.h"
 #include "voxtact/clearance.h"
 #include "voxtact/data.h"
 #include "voxtact/motion.h"
@@ -26,7 +27,7 @@ constexpr std::uint32_t kDefaultBatch = 1024;
 /// Enough to keep a device busy while the host records; more only costs memory.
 constexpr std::uint32_t kSubmissionsInFlight = 3;
 
-/// What is asked for about distances.
+/// What is asked for about distances, and about areas.
 struct DistanceOptions {
     std::optional<double> margin; ///< mm
     std::optional<PoseTolerance> poseTolerance;
@@ -35,8 +36,11 @@ struct DistanceOptions {
     std::optional<double> maximum;   ///< mm
     std::filesystem::path closest;   ///< a file to write; empty: not asked for
     std::filesystem::path labels;    ///< another
-    std::vector<LabelWord> to;       ///< empty: all but 0
-    bool toAnyOpacity = false;       ///< all of a label, not what is opaque of it
+    bool area = false;
+    std::optional<double> areaTolerance; ///< mm^2
+    std::filesystem::path labelAreas;    ///< a file to write
+    std::vector<LabelWord> to;           ///< of `labels` and `labelAreas`; empty: all but 0
+    bool toAnyOpacity = false;           ///< all of a label, not what is opaque of it
 
     /// With `clearance`.
     [[nodiscard]] ClearanceSearch search() const {
@@ -45,12 +49,14 @@ struct DistanceOptions {
         asked.maximum = maximum.value_or(asked.maximum);
         return asked;
     }
-    [[nodiscard]] bool any() const { return clearance || isMargin(); }
+    [[nodiscard]] bool any() const { return clearance || area || isMargin(); }
+    /// Whether label by label is measured.
+    [[nodiscard]] bool byLabel() const { return !labels.empty() || !labelAreas.empty(); }
     /// Whether it is one question, such as a device answers.
     [[nodiscard]] bool isOne() const {
-        return static_cast<int>(clearance) + static_cast<int>(margin.has_value()) +
-                   static_cast<int>(poseTolerance.has_value()) ==
-               1;
+        return !area && static_cast<int>(clearance) + static_cast<int>(margin.has_value()) +
+                                static_cast<int>(poseTolerance.has_value()) ==
+                            1;
     }
     /// Whether what is asked is not if a pose touches, but if it or something near does.
     [[nodiscard]] bool isMargin() const { return margin.has_value() || poseTolerance.has_value(); }
@@ -92,7 +98,7 @@ struct DetectInputs {
     std::optional<Mat4> clip_from_world;
     std::optional<LabelData> labels;
     std::map<std::int32_t, std::string> labelNames;
-    std::vector<std::int32_t> measured; ///< what --label-clearance is about; each once
+    std::vector<std::int32_t> measured; ///< what --label-clearance and --label-area are about; each once
 
     /// Of all jobs; nothing where standard input has not told yet.
     [[nodiscard]] std::optional<std::uint64_t> pairs(const PairJobs& jobs) const;
@@ -105,6 +111,7 @@ struct Row {
     device::TimedAnswer timed;
     KeptExtra extra;
     std::optional<PairClearance> clearance; ///< with --clearance
+    std::optional<PairArea> area;           ///< with --area
 };
 
 /// A contact, and whose it is.
@@ -134,7 +141,7 @@ struct KeptBounds {
 /// Meshes, poses, camera, control points and labels; volumes are read one at a time, later.
 [[nodiscard]] Result<DetectInputs> readDetectInputs(const DetectOptions& options);
 
-/// Refuses a volume on another grid than the label map, where clearances to its labels are asked for.
+/// Refuses a volume on another grid than the label map, where it is measured label by label.
 [[nodiscard]] Result<void> checkMeasuredGrid(const DetectOptions& options, const DetectInputs& inputs,
                                              const Grid& volume);
 

@@ -29,6 +29,15 @@ void DetectColumns::addClearance() {
                         }});
 }
 
+void DetectColumns::addArea() {
+    columns_.push_back({"area_lo", [](const Row& row) {
+                            return row.area ? io::Cell(roundedOutward(row.area->bounds).lo) : io::Cell();
+                        }});
+    columns_.push_back({"area_hi", [](const Row& row) {
+                            return row.area ? io::Cell(roundedOutward(row.area->bounds).hi) : io::Cell();
+                        }});
+}
+
 DetectColumns::DetectColumns(const DetectOptions& options, const DetectInputs& inputs) {
     const PairJobs& jobs = options.jobs;
     columns_ = {
@@ -43,6 +52,9 @@ DetectColumns::DetectColumns(const DetectOptions& options, const DetectInputs& i
         {"projection", [](const Row& row) { return std::string(toString(row.timed.answer.projection)); }}};
     for (ExtraColumn& extra : extraColumns(options.extra.outputs(), inputs.labelNames)) {
         columns_.push_back({extra.name, [cell = std::move(extra.cell)](const Row& row) { return cell(row.extra); }});
+    }
+    if (options.distance.area) {
+        addArea();
     }
     if (options.distance.clearance) {
         addClearance();

@@ -23,6 +23,7 @@ class DetectColumns {
         std::function<io::Cell(const Row&)> cell;
     };
     void addClearance();
+    void addArea();
 
     std::vector<Column> columns_;
     std::vector<std::string> names_;

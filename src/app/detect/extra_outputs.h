@@ -31,7 +31,8 @@ struct ExtraOptions {
     std::filesystem::path triangles; ///< files to write; empty: not asked for
     std::filesystem::path contacts;
     std::filesystem::path labels; ///< a label map to read
-    /// It is for --label-clearance alone: what touches is a yes or no, or a device measures. Set by resolveOptions().
+    /// It is for --label-clearance and --label-area alone: what touches is a yes or no, or a device measures. Set by
+    /// resolveOptions().
     bool labelsOnlyMeasured = false;
     std::filesystem::path labelNames;
     Outputs asked; ///< those that a flag alone asks for

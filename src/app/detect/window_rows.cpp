@@ -40,6 +40,14 @@ void WindowRows::addClearance(const LabelClearance& clearance) {
     output_.addLabelClearance(rows_[batch_[clearance.pair]], clearance);
 }
 
+void WindowRows::addArea(const PairArea& area) {
+    rows_[batch_[area.pair]].area = area;
+}
+
+void WindowRows::addArea(const LabelArea& area) {
+    output_.addLabelArea(rows_[batch_[area.pair]], area);
+}
+
 void WindowRows::endBatch(const BatchAnswer& answer) {
     keepExtra(answer, batch_, rows_, output_);
     if (answer.counters) {

@@ -21,6 +21,10 @@ class WindowRows {
     void addClearance(const PairClearance& clearance);
     /// The same of one of its labels; in order.
     void addClearance(const LabelClearance& clearance);
+    /// The contact area of such a pair.
+    void addArea(const PairArea& area);
+    /// The same of one of its labels; in order.
+    void addArea(const LabelArea& area);
     /// The answers in addition to the counts of the pairs that were added since the last time. The rows up to the last
     /// of these are known now; with --timing they wait for the end of the window, so that no time is of writing them.
     void endBatch(const BatchAnswer& answer);

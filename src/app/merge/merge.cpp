@@ -28,14 +28,16 @@ struct MergeOptions {
     std::filesystem::path triangles;
     std::filesystem::path closest;
     std::filesystem::path labels;
+    std::filesystem::path labelAreas;
     std::filesystem::path byTarget;
     std::filesystem::path surface;
     std::filesystem::path heatMap;
 
     /// Those in addition to the rows.
     [[nodiscard]] MergePaths files() const {
-        return {{"--triangles", triangles}, {"--closest", closest}, {"--label-clearance", labels},
-                {"--by-target", byTarget},  {"--surface", surface}, {"--heat-map", heatMap}};
+        return {{"--triangles", triangles},   {"--closest", closest},    {"--label-clearance", labels},
+                {"--label-area", labelAreas}, {"--by-target", byTarget}, {"--surface", surface},
+                {"--heat-map", heatMap}};
     }
 };
 
@@ -101,6 +103,7 @@ Command addMerge(CLI::App& program) {
     addPath(*parser, "--triangles", options->triangles, "a file for what detect --triangles writes");
     addPath(*parser, "--closest", options->closest, "a .csv file for what detect --closest writes");
     addPath(*parser, "--label-clearance", options->labels, "a file for what detect --label-clearance writes");
+    addPath(*parser, "--label-area", options->labelAreas, "a file for what detect --label-area writes");
     addPath(*parser, "--by-target", options->byTarget, "a file for what plan --by-target writes");
     addPath(*parser, "--surface", options->surface,
             "a .ply file for what plan --surface writes; of several targets a path with {target}");

@@ -2,6 +2,7 @@
 #include "voxtact/methods.h"
 
 #include "core/method/method_table.h"
+#include "voxtact/area.h"
 #include "voxtact/clearance.h"
 #include "voxtact/motion.h"
 
@@ -66,6 +67,18 @@ const char* toString(ClearanceEnd end) noexcept {
     case ClearanceEnd::Rounding:
         return "rounding";
     case ClearanceEnd::Budget:
+        return "budget";
+    }
+    return "unknown";
+}
+
+const char* toString(AreaEnd end) noexcept {
+    switch (end) {
+    case AreaEnd::Closed:
+        return "closed";
+    case AreaEnd::Rounding:
+        return "rounding";
+    case AreaEnd::Budget:
         return "budget";
     }
     return "unknown";

@@ -178,26 +178,6 @@ Result<LabelSets> setsOf(ClearanceMeterImpl& impl, const BatchItem& item, const 
     return made;
 }
 
-Result<void> checkMeasuredLabels(const Batch& batch, std::span<const std::int32_t> labels) {
-    VOXTACT_TRY(voxtact::checkMeasuredLabels(labels));
-    for (std::size_t i = 0; i < batch.items.size(); ++i) {
-        const BatchItem& item = batch.items[i];
-        const std::string which = "batch item " + std::to_string(i);
-        if (item.labels == nullptr) {
-            return noLabelsToMeasure(which);
-        }
-        VOXTACT_TRY(checkLabelsOnGrid(*item.labels, item.volume->grid(), which));
-    }
-    return {};
-}
-
-Result<void> checkClearanceBatch(const Batch& batch) {
-    DetectorDesc desc;
-    desc.projection = Projection::Conservative;
-    VOXTACT_TRY(checkBatch(desc, batch));
-    return {};
-}
-
 } // namespace
 
 ClearanceMeter::ClearanceMeter(std::unique_ptr<ClearanceMeterImpl> impl) noexcept : impl_(std::move(impl)) {}
@@ -215,7 +195,7 @@ Result<ClearanceMeter> ClearanceMeter::create(const ClearanceDesc& desc) {
 Result<ClearanceAnswer> ClearanceMeter::measure(const Batch& batch) {
     return guard([&]() -> Result<ClearanceAnswer> {
         const StopWatch watch;
-        VOXTACT_TRY(checkClearanceBatch(batch));
+        VOXTACT_TRY(checkCertifiedBatch(batch));
         const Cancellation cancel(batch.cancel);
         VOXTACT_TRY(checkNotCancelled(cancel));
         ClearanceAnswer answer;
@@ -233,7 +213,7 @@ Result<ClearanceAnswer> ClearanceMeter::measure(const Batch& batch) {
 Result<BatchAnswer> ClearanceMeter::within(const Batch& batch, double margin) {
     return guard([&]() -> Result<BatchAnswer> {
         const StopWatch watch;
-        VOXTACT_TRY(checkClearanceBatch(batch));
+        VOXTACT_TRY(checkCertifiedBatch(batch));
         if (!(margin >= 0 && margin < kInfinity)) {
             return refuse("the margin " + number(margin) + " mm is not a number from 0 on");
         }
@@ -254,7 +234,7 @@ Result<BatchAnswer> ClearanceMeter::within(const Batch& batch, double margin) {
 Result<LabelClearanceAnswer> ClearanceMeter::measureLabels(const Batch& batch, std::span<const std::int32_t> labels) {
     return guard([&]() -> Result<LabelClearanceAnswer> {
         const StopWatch watch;
-        VOXTACT_TRY(checkClearanceBatch(batch));
+        VOXTACT_TRY(checkCertifiedBatch(batch));
         VOXTACT_TRY(checkMeasuredLabels(batch, labels));
         const Cancellation cancel(batch.cancel);
         VOXTACT_TRY(checkNotCancelled(cancel));

@@ -147,4 +147,17 @@ Result<void> checkLabelsOnGrid(const LabelData& labels, const Grid& grid, const 
     return checkLabelGrid(labels.grid, grid, which);
 }
 
+Result<void> checkMeasuredLabels(const Batch& batch, std::span<const std::int32_t> labels) {
+    VOXTACT_TRY(voxtact::checkMeasuredLabels(labels));
+    for (std::size_t i = 0; i < batch.items.size(); ++i) {
+        const BatchItem& item = batch.items[i];
+        const std::string which = "batch item " + std::to_string(i);
+        if (item.labels == nullptr) {
+            return noLabelsToMeasure(which);
+        }
+        VOXTACT_TRY(checkLabelsOnGrid(*item.labels, item.volume->grid(), which));
+    }
+    return {};
+}
+
 } // namespace voxtact::cpu

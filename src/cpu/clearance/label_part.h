@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cpu/clearance/opaque_part.h"
-#include "voxtact/data.h"
+#include "voxtact/cpu.h"
 
 #include <glm/vec3.hpp>
 
@@ -83,6 +83,8 @@ class SearchedPart {
 
 /// Refuses a label map that is not on a volume's grid, as checkLabelGrid() does. `which` begins the text of a refusal.
 [[nodiscard]] Result<void> checkLabelsOnGrid(const LabelData& labels, const Grid& grid, const std::string& which);
+/// Refuses too many labels, and items of a checked batch without a label map on the volume's grid.
+[[nodiscard]] Result<void> checkMeasuredLabels(const Batch& batch, std::span<const std::int32_t> labels);
 
 /// Sets of a single label each. `indices`: numbers of labels in LabelData::values. The map is on the volume's grid.
 [[nodiscard]] std::vector<LabelSet> singleLabels(const OpaquePart& part, const VolumeImpl& volume,

@@ -74,6 +74,18 @@ bool OpaqueIntervals::meet(double lo, double hi, EntryInterval& hull) const noex
     return true;
 }
 
+OpaqueIntervals::Some OpaqueIntervals::between(double lo, double hi) const noexcept {
+    if (!(lo <= hi)) {
+        return {};
+    }
+    const std::size_t first = firstEndingAt(outer_, lo);
+    std::size_t end = first;
+    while (end < outer_.size() && outer_[end].lo <= hi) {
+        ++end;
+    }
+    return {std::span(outer_).subspan(first, end - first), std::span(inner_).subspan(first, end - first), true};
+}
+
 bool OpaqueIntervals::contain(double lo, double hi) const noexcept {
     if (!(lo <= hi)) {
         return false;

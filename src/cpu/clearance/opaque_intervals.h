@@ -26,6 +26,14 @@ class OpaqueIntervals {
     /// Whether [lo, hi] may have an opaque coordinate. `hull` is then the least interval that certainly holds all of
     /// them that are in [lo, hi], but for ends that are beyond lo or hi. NaN may be anything.
     [[nodiscard]] bool meet(double lo, double hi, EntryInterval& hull) const noexcept;
+    /// Some of them, one after the other.
+    struct Some {
+        std::span<const EntryInterval> outer; ///< they hold all that is opaque
+        std::span<const EntryInterval> inner; ///< of each, what certainly is
+        bool known = false;                   ///< false: there may be any
+    };
+    /// Those that have something in common with [lo, hi]; not known with NaN.
+    [[nodiscard]] Some between(double lo, double hi) const noexcept;
     /// Whether all of [lo, hi] is certainly opaque. False with NaN.
     [[nodiscard]] bool contain(double lo, double hi) const noexcept;
     /// Whether some coordinate of [lo, hi] is certainly opaque. False for an empty range, and with NaN.

@@ -64,6 +64,8 @@ OpaquePart::OpaquePart(const VolumeImpl& volume, const TransferFunctionImpl& fun
     : occupancy(volume, function, threshold, resolution), space(volume.grid),
       intervals(function.table, occupancy.item().threshold),
       pyramid(volume.bricks.count, wantedBricks(occupancy, volume.bricks.lo.size())),
+      storedRange{static_cast<double>(*std::ranges::min_element(volume.bricks.lo)),
+                  static_cast<double>(*std::ranges::max_element(volume.bricks.hi))},
       scale_{static_cast<double>(function.table.size()) / (function.domain.hi - function.domain.lo),
              function.domain.lo - volume.storedIntercept,
              std::abs(function.domain.lo) + std::abs(volume.storedIntercept)} {}
@@ -78,7 +80,7 @@ PartCell OpaquePart::cell(const VolumeImpl& volume, const NodePlace& padded) con
     double largest = 0;
     forCorners(volume.image, padded, [&](std::size_t i, double stored) {
         largest = std::max(largest, std::abs(stored));
-        corners[i] = (stored - scale_.origin) * scale_.factor - 0.5;
+        corners[i] = entryOf(stored);
     });
     out.error = scale_.error(largest);
     out.terms = trilinearOf(corners);

@@ -93,11 +93,16 @@ class OpaquePart {
     /// Adds all of such a cell to some rows, for makeTerms().
     void addCell(const VolumeImpl& volume, const NodePlace& padded, PieceRows& rows) const;
     [[nodiscard]] const EntryScale& scale() const noexcept { return scale_; }
+    /// The entry coordinate of a stored value, up to EntryScale::error().
+    [[nodiscard]] double entryOf(double stored) const noexcept {
+        return (stored - scale_.origin) * scale_.factor - 0.5;
+    }
 
     CertifiedOccupancy occupancy;
     VolumeSpace space;
     OpaqueIntervals intervals;
     BrickPyramid pyramid;
+    ValueRange storedRange; ///< of all voxels
 
   private:
     void setDomain(const VolumeImpl& volume, const NodePlace& padded, PartCell& cell) const {

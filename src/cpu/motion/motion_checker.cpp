@@ -36,13 +36,6 @@ Result<void> checkDesc(const MotionDesc& desc) {
     return checkResolution(desc.touchResolution);
 }
 
-Result<void> checkMotionBatch(const Batch& batch) {
-    DetectorDesc desc;
-    desc.projection = Projection::Conservative;
-    VOXTACT_TRY(checkBatch(desc, batch));
-    return {};
-}
-
 /// Of all segments, in order.
 Result<std::vector<RigidMotion>> motionsOf(const Batch& batch, Interpolation interpolation,
                                            const Cancellation& cancel) {
@@ -161,14 +154,14 @@ Result<MotionChecker> MotionChecker::create(const MotionDesc& desc) {
 
 Result<MotionAnswer> MotionChecker::check(const Batch& batch) {
     return guard([&]() -> Result<MotionAnswer> {
-        VOXTACT_TRY(checkMotionBatch(batch));
+        VOXTACT_TRY(checkCertifiedBatch(batch));
         return checkSegments(*impl_, batch, {});
     });
 }
 
 Result<MotionAnswer> MotionChecker::checkBending(const Batch& batch, std::span<const ShapesOfPoses> shapes) {
     return guard([&]() -> Result<MotionAnswer> {
-        VOXTACT_TRY(checkMotionBatch(batch));
+        VOXTACT_TRY(checkCertifiedBatch(batch));
         VOXTACT_TRY(checkShapes(batch, shapes));
         return checkSegments(*impl_, batch, shapes);
     });
@@ -177,7 +170,7 @@ Result<MotionAnswer> MotionChecker::checkBending(const Batch& batch, std::span<c
 Result<BatchAnswer> MotionChecker::around(const Batch& batch, const PoseTolerance& tolerance) {
     return guard([&]() -> Result<BatchAnswer> {
         const StopWatch watch;
-        VOXTACT_TRY(checkMotionBatch(batch));
+        VOXTACT_TRY(checkCertifiedBatch(batch));
         VOXTACT_TRY(checkTolerance(tolerance));
         const Cancellation cancel(batch.cancel);
         VOXTACT_TRY(checkNotCancelled(cancel));

@@ -10,6 +10,7 @@
     answer = scene.detect(knife, poses)            # (N,4,4), world_from_object
     answer.hit, answer.count, answer.triangles, answer.contacts
     scene.clearance(knife, poses).lo               # mm
+    scene.area(knife, poses).lo                    # mm^2
     scene.motion(knife, poses).free_until          # on the way from pose to pose
     scene.opacity = [(100, 0), (200, 1)]           # the next answer has seen it
     scene.edit(ball=(x, y, z, r), value=-1000)     # so it has this
@@ -24,7 +25,7 @@ posterior, +z superior), in millimetres. Matrices are written row by row and mul
 Everything that is refused raises a `voxtact.Error`, which says what, why and what to do; a thing of another kind than
 the argument is, such as a text for a number, a TypeError.
 """
-from ._answer import Answer, Clearance, Counters
+from ._answer import Answer, Area, Clearance, Counters
 from ._core import __version__
 from ._common import LPS_FROM_RAS
 from ._device import Device, DeviceInfo, MethodReport, devices
@@ -56,6 +57,7 @@ from ._volume import Volume, read_volume
 __all__ = [
     "LPS_FROM_RAS",
     "Answer",
+    "Area",
     "Clearance",
     "Counters",
     "Device",

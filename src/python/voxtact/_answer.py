@@ -17,8 +17,10 @@ if TYPE_CHECKING:
 _OUTPUTS = ("triangles", "contacts", "bounds", "labels")
 _MEMBERS = ("hit", "possible", "count", "exact", "item", "pose", "method", "projection", "counters", "milliseconds",
             "device_milliseconds", "contacts_found", *_OUTPUTS)
-_CLEARANCE_MEMBERS = ("lo", "hi", "end", "closest", "labels", "item", "pose", "milliseconds")
+_AREA_MEMBERS = ("lo", "hi", "end", "labels", "item", "pose", "milliseconds")
+_CLEARANCE_MEMBERS = (*_AREA_MEMBERS, "closest")
 _ENDS = np.array(["closed", "beyond", "rounding", "budget"])
+_AREA_ENDS = np.array(["closed", "rounding", "budget"])
 
 
 class Counters(NamedTuple):
@@ -226,10 +228,43 @@ class Answer:
         return restored, (Answer, {"_core": Kept(len(self), members), "_scene": None, "_later": None})
 
 
-class Clearance:
-    """What `Scene.clearance` found: a row for each pair, in order; to labels, a column for each."""
+class _Measured:
+    """What clearances and areas have in common."""
 
     __slots__ = ("_core",)
+    _core: Union[core.Clearances, core.Areas, Kept]
+
+    @property
+    def labels(self) -> npt.NDArray[np.int32]:
+        """(L,): of the columns; empty where it is not about labels."""
+        return self._core.labels
+
+    @property
+    def item(self) -> npt.NDArray[np.uint32]:
+        """(N,): the number of the mesh in the list that was given; 0 for a single one."""
+        return self._core.item
+
+    @property
+    def pose(self) -> npt.NDArray[np.uint32]:
+        """(N,): the number of the pose among those of its mesh."""
+        return self._core.pose
+
+    @property
+    def seconds(self) -> float:
+        """What the engine took."""
+        return self._core.milliseconds / 1000
+
+    def __len__(self) -> int:
+        return len(self._core)
+
+    def __bool__(self) -> NoReturn:
+        no_truth(self, ".lo and .hi")
+
+
+class Clearance(_Measured):
+    """What `Scene.clearance` found: a row for each pair, in order; to labels, a column for each."""
+
+    __slots__ = ()
     _core: Union[core.Clearances, Kept]
 
     def __init__(self, made_of: core.Clearances) -> None:
@@ -267,34 +302,11 @@ class Clearance:
             raise NotReadyError("clearances to labels have no closest points")
         return self._core.closest
 
-    @property
-    def labels(self) -> npt.NDArray[np.int32]:
-        """(L,): of the columns; empty where it is not about labels."""
-        return self._core.labels
-
-    @property
-    def item(self) -> npt.NDArray[np.uint32]:
-        """(N,): the number of the mesh in the list that was given; 0 for a single one."""
-        return self._core.item
-
-    @property
-    def pose(self) -> npt.NDArray[np.uint32]:
-        """(N,): the number of the pose among those of its mesh."""
-        return self._core.pose
-
-    @property
-    def seconds(self) -> float:
-        """What the engine took."""
-        return self._core.milliseconds / 1000
-
     def plot(self, ax: Any = None) -> Any:
         """The bounds over the poses, mm, with matplotlib; the axes."""
         from ._plot import plot_clearance
 
         return plot_clearance(self, ax)
-
-    def __len__(self) -> int:
-        return len(self._core)
 
     def __repr__(self) -> str:
         if not len(self):
@@ -304,8 +316,52 @@ class Clearance:
             return f"<voxtact.Clearance of {len(self)} poses{to}>"
         return f"<voxtact.Clearance of {len(self)} poses{to}: the least is {self.lo.min():.4g} to {self.hi.min():.4g} mm>"
 
-    def __bool__(self) -> NoReturn:
-        no_truth(self, ".lo and .hi")
-
     def __reduce__(self) -> tuple[Any, ...]:
         return restored, (Clearance, {"_core": Kept(len(self), members_of(self._core, _CLEARANCE_MEMBERS))})
+
+
+class Area(_Measured):
+    """What `Scene.area` found: a row for each pair, in order; in labels, a column for each."""
+
+    __slots__ = ()
+    _core: Union[core.Areas, Kept]
+
+    def __init__(self, made_of: core.Areas) -> None:
+        check_made(made_of, core.Areas, "Scene.area()")
+        self._core = made_of
+
+    @property
+    def lo(self) -> npt.NDArray[np.float64]:
+        """(N,) or (N,L): so much of the surface is certainly opaque, mm^2."""
+        return self._core.lo
+
+    @property
+    def hi(self) -> npt.NDArray[np.float64]:
+        """(N,) or (N,L): no more of the surface is opaque, mm^2."""
+        return self._core.hi
+
+    @property
+    def end(self) -> npt.NDArray[np.str_]:
+        """Why the bounds are no nearer to each other.
+
+        "closed" (within the tolerance), "rounding" (which decides what is left) or "budget" (`most_steps`).
+        """
+        names: npt.NDArray[np.str_] = _AREA_ENDS[self._core.end]
+        return names
+
+    def plot(self, ax: Any = None) -> Any:
+        """The bounds over the poses, mm^2, with matplotlib; the axes."""
+        from ._plot import plot_area
+
+        return plot_area(self, ax)
+
+    def __repr__(self) -> str:
+        if not len(self):
+            return "<voxtact.Area of no poses>"
+        to = f" in {len(self.labels)} labels" if self.lo.ndim == 2 else ""
+        if not self.lo.size:
+            return f"<voxtact.Area of {len(self)} poses{to}>"
+        return f"<voxtact.Area of {len(self)} poses{to}: the largest is {self.lo.max():.4g} to {self.hi.max():.4g} mm^2>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return restored, (Area, {"_core": Kept(len(self), members_of(self._core, _AREA_MEMBERS))})

@@ -2,12 +2,12 @@
 """Plots, with matplotlib where it is there."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Union
 
 import numpy as np
 
 if TYPE_CHECKING:
-    from ._answer import Answer, Clearance
+    from ._answer import Answer, Area, Clearance
     from ._motion import Motion
 
 
@@ -33,20 +33,27 @@ def plot_answer(answer: Answer, ax: Any) -> Any:
     return axes
 
 
-def plot_clearance(clearance: Clearance, ax: Any) -> Any:
+def _plot_bounds(of: Union[Area, Clearance], name: str, unit: str, ax: Any) -> Any:
     axes = _axes(ax)
-    rows = np.arange(len(clearance))
-    columns = clearance.lo.reshape(len(clearance), -1).shape[1] if len(clearance) else 0
+    rows = np.arange(len(of))
+    columns = of.lo.reshape(len(of), -1).shape[1] if len(of) else 0
     for column in range(columns):
-        lo = clearance.lo.reshape(len(clearance), -1)[:, column]
-        hi = clearance.hi.reshape(len(clearance), -1)[:, column]
-        name = f"label {clearance.labels[column]}" if clearance.labels.size else "clearance"
-        line = axes.plot(rows, lo, label=name)[0]
+        lo = of.lo.reshape(len(of), -1)[:, column]
+        hi = of.hi.reshape(len(of), -1)[:, column]
+        line = axes.plot(rows, lo, label=f"label {of.labels[column]}" if of.labels.size else name)[0]
         axes.fill_between(rows, lo, np.where(np.isfinite(hi), hi, lo), color=line.get_color(), alpha=0.3)
     axes.set_xlabel("pose")
-    axes.set_ylabel("mm")
+    axes.set_ylabel(unit)
     axes.legend()
     return axes
+
+
+def plot_clearance(clearance: Clearance, ax: Any) -> Any:
+    return _plot_bounds(clearance, "clearance", "mm", ax)
+
+
+def plot_area(area: Area, ax: Any) -> Any:
+    return _plot_bounds(area, "contact area", "mm²", ax)
 
 
 def plot_motion(motion: Motion, ax: Any) -> Any:

@@ -53,6 +53,7 @@ TEST_F(CpuBadInput, MoreThreadsThanAnybodyHas) {
     };
     expectRefused(cpu::Detector::create({.threads = kTooMany}));
     expectRefused(cpu::ClearanceMeter::create({.threads = kTooMany}));
+    expectRefused(cpu::AreaMeter::create({.threads = kTooMany}));
     expectRefused(cpu::MotionChecker::create({.threads = kTooMany}));
     expectRefused(cpu::Planner::create({.threads = kTooMany}));
 }

@@ -119,6 +119,14 @@ TEST_F(Cancel, AViewWithOutputs) {
     expectDetectorCancelled({.threads = 2, .outputs = {.triangles = true}});
 }
 
+TEST_F(Cancel, AnArea) {
+    cpu::AreaMeter meter =
+        take(cpu::AreaMeter::create({.threads = 1, .tolerance = 1e-9, .mostSteps = std::uint64_t{1} << 40U}));
+    expectCancelled([&](const cpu::Batch& asked) { return meter.measure(asked); });
+    const std::vector<std::int32_t> labels{0, 255};
+    expectCancelled([&](const cpu::Batch& asked) { return meter.measureLabels(asked, labels); });
+}
+
 TEST_F(Cancel, AFlagThatIsTakenBackEndsTheCallAllTheSame) {
     // Now and then set for a moment: threads leave out the rest, and at the end it is most likely not set.
     for (const Projection projection : {Projection::Conservative, Projection::View}) {
@@ -227,6 +235,9 @@ TEST(CancelBefore, ACallThatWouldHaveNothingToLookAtIsCancelledToo) {
     EXPECT_TRUE(isCancelled(meter.measure(nothing)));
     EXPECT_TRUE(isCancelled(meter.within(nothing, 1)));
     EXPECT_TRUE(isCancelled(meter.measureLabels(nothing, {})));
+    cpu::AreaMeter areas = take(cpu::AreaMeter::create({.threads = 1}));
+    EXPECT_TRUE(isCancelled(areas.measure(nothing)));
+    EXPECT_TRUE(isCancelled(areas.measureLabels(nothing, {})));
     cpu::MotionChecker checker = take(cpu::MotionChecker::create({.threads = 1}));
     EXPECT_TRUE(isCancelled(checker.check(nothing)));
     EXPECT_TRUE(isCancelled(checker.around(nothing, {1, 1})));

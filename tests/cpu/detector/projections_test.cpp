@@ -19,7 +19,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr ValueRange kBytes{0, 255};
+constexpr ValueRange kByteValues{0, 255};
 constexpr cpu::DetectorDesc kDominant{.projection = Projection::DominantAxis};
 
 std::vector<std::uint64_t> engineCounts(const RandomScene& scene, cpu::DetectorDesc desc, const View& view) {
@@ -85,7 +85,7 @@ TEST(Projections, DominantAxisIsTheReferenceBeyondReason) {
         RandomScene scene;
         scene.volume = makeBytes(unitGrid(6, 9, 4), [](auto...) { return 255.0; });
         scene.points.assign(byteRamp().begin(), byteRamp().end());
-        scene.domain = kBytes;
+        scene.domain = kByteValues;
         scene.poses = {identity()};
         scene.rangeTest = round % 3 != 0;
         for (int i = 0; i < 90; ++i) {
@@ -174,7 +174,7 @@ TEST(Projections, TwoViewIsTheViewAndTheSideView) {
 
 std::uint64_t countOf(const MeshData& mesh, const VolumeData& volume, const cpu::DetectorDesc& desc,
                       const Mat4& pose = identity()) {
-    return engineCount(mesh.view(), volume.view(), {byteRamp(), kBytes}, {}, 0.5, desc, pose);
+    return engineCount(mesh.view(), volume.view(), {byteRamp(), kByteValues}, {}, 0.5, desc, pose);
 }
 
 VolumeData solid(const Grid& grid) {
@@ -263,7 +263,7 @@ TEST(Projections, BadOnesAreRefused) {
     desc.samplesPerVoxel = 16;
     cpu::Detector detector = take(cpu::Detector::create(desc));
     const cpu::Volume volume = take(cpu::Volume::create(solid(unitGrid(1, 1, 1025)).view()));
-    const cpu::TransferFunction function = take(cpu::TransferFunction::create({byteRamp(), kBytes}));
+    const cpu::TransferFunction function = take(cpu::TransferFunction::create({byteRamp(), kByteValues}));
     const cpu::Mesh mesh = take(cpu::Mesh::create(makeFlat(0, 1, 0, 1, 0.5).view()));
     const Mat4 pose = identity();
     const cpu::BatchItem item{&mesh, &volume, &function, std::span(&pose, 1)};

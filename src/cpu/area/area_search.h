@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cpu/area/label_cut.h"
+#include "cpu/cancel.h"
+#include "cpu/clearance/mesh_place.h"
+#include "voxtact/area.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace voxtact::cpu {
+
+/// What is asked of a measurement.
+struct AreaGoal {
+    double tolerance = 0;        ///< mm^2: how near to each other the bounds of each sum are brought
+    std::uint64_t mostSteps = 0; ///< so many parts are divided
+    CancelFlag cancel = nullptr; ///< what a cancelled measurement says means nothing
+};
+
+/// What it found.
+struct AreaFound {
+    AreaBounds bounds;
+    AreaEnd end{};
+};
+
+/// The contact area of a mesh that is in place: parts of its triangles, each in a cell, between bounds; and those
+/// whose bounds are farthest apart divided, until all together are within the tolerance. The same on every processor.
+[[nodiscard]] AreaFound measureArea(const VolumeImpl& volume, const OpaquePart& part, MeshPlace& mesh,
+                                    const AreaGoal& goal);
+
+/// The same of what is opaque and in the closed boxes around the voxels of some labels: as many as there are slots.
+[[nodiscard]] std::vector<AreaFound> measureAreas(const VolumeImpl& volume, const OpaquePart& part, MeshPlace& mesh,
+                                                  const AreaLabels& labels, std::size_t slots, const AreaGoal& goal);
+
+} // namespace voxtact::cpu

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cpu/area/area_frame.h"
+#include "cpu/clearance/opaque_part.h"
+
+#include <cstdint>
+
+namespace voxtact::cpu {
+
+/// A part of a triangle in one cell of the volume.
+struct CellPart {
+    UvPolygon polygon;
+    std::uint32_t frame = 0; ///< number of its triangle's
+    NodePlace padded{};      ///< its cell
+    std::uint16_t slot = 0;  ///< of the sums that it is counted in
+    bool atEdge = false;     ///< rounding decides whether it is where it counts
+};
+
+/// The area of a part that is opaque, mm^2.
+struct PartArea {
+    double lo = 0;
+    double hi = 0;
+    bool final = false; ///< dividing it would not bring them nearer to each other
+    int axis = 0;       ///< else: it is best divided across that axis
+
+    [[nodiscard]] double gap() const noexcept { return hi - lo; }
+};
+
+/// How much of parts of triangles is opaque. One thread's.
+class PartMeasure {
+  public:
+    /// All must outlive it.
+    PartMeasure(const VolumeImpl& volume, const OpaquePart& part, const AreaSlack& slack);
+
+    [[nodiscard]] PartArea area(const AreaFrame& frame, const CellPart& part) const;
+    /// All of a polygon, no cell of whose box is in another brick, is certainly opaque.
+    [[nodiscard]] bool allOpaque(const NodePlace& brick) const;
+    /// All of it, or none.
+    [[nodiscard]] static PartArea whole(const AreaFrame& frame, const UvPolygon& polygon) noexcept;
+
+  private:
+    [[nodiscard]] double errorAround(const NodePlace& padded) const;
+
+    const VolumeImpl& volume_;
+    const OpaquePart& part_;
+    double reach_;     ///< AreaSlack::reach()
+    double wide_;      ///< entries: what that may change a value by, anywhere in the volume
+    double wideError_; ///< entries: and what rounding does
+};
+
+} // namespace voxtact::cpu

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+// Contact areas of random scenes against the oracle, which knows nothing of cells' faces and linear parts.
+#include "cpu/scenes/certified_scenes.h"
+#include "cpu/scenes/engine_fixture.h"
+#include "cpu/scenes/margin_cases.h"
+#include "cpu/scenes/random_labels.h"
+#include "oracle/area_oracle.h"
+#include "support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+#include <map>
+
+namespace voxtact::test {
+namespace {
+
+using oracle::OracleArea;
+
+/// A scene that the engine has.
+struct HeldCase {
+    explicit HeldCase(const OracleScene& scene)
+        : mesh(take(cpu::Mesh::create(scene.mesh.view()))), volume(take(cpu::Volume::create(scene.volume.view()))),
+          function(take(cpu::TransferFunction::create({scene.points, scene.domain, scene.tableSize}))),
+          pose(scene.world_from_object), item{&mesh, &volume, &function, std::span(&pose, 1)},
+          threshold(scene.threshold) {}
+    HeldCase(const HeldCase&) = delete;
+    HeldCase& operator=(const HeldCase&) = delete;
+
+    [[nodiscard]] cpu::Batch batch() const { return {std::span(&item, 1), {}, threshold}; }
+
+    cpu::Mesh mesh;
+    cpu::Volume volume;
+    cpu::TransferFunction function;
+    Mat4 pose;
+    cpu::BatchItem item;
+    double threshold;
+};
+
+/// Like those of the certified tests; in half of them more is opaque than at the onset of contact.
+CertifiedCase areaCase(std::uint64_t seed, std::uint64_t number) {
+    CertifiedCase c = number % 2 == 0 ? makeCertifiedCase(seed, number) : makeClearanceCase(seed, number);
+    c.scene.threshold *= number % 4 < 2 ? 0.5 : 1;
+    return c;
+}
+
+/// Of the triangles in the world, mm^2; and what the oracle may round off of it.
+struct Surface {
+    double area = 0;
+    double doubt = 0;
+};
+
+Surface surfaceOf(const OracleScene& scene) {
+    Surface out;
+    for (std::size_t i = 0; i < scene.mesh.indices.size(); i += 3) {
+        std::array<Vec3, 3> t{};
+        double largest = 0;
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            const float* at = &scene.mesh.positions[std::size_t{3} * scene.mesh.indices[i + corner]];
+            t[corner] = transformPoint(scene.world_from_object, {static_cast<double>(at[0]), static_cast<double>(at[1]),
+                                                                 static_cast<double>(at[2])});
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                largest = std::max({largest, std::abs(t[corner][axis]), std::abs(scene.world_from_object[12 + axis])});
+            }
+        }
+        const Vec3 a{t[1][0] - t[0][0], t[1][1] - t[0][1], t[1][2] - t[0][2]};
+        const Vec3 b{t[2][0] - t[0][0], t[2][1] - t[0][1], t[2][2] - t[0][2]};
+        out.area += std::hypot(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]) / 2;
+        out.doubt += 1e-14 * largest * (std::hypot(a[0], a[1], a[2]) + std::hypot(b[0], b[1], b[2]));
+    }
+    out.doubt += 1e-12 * out.area;
+    return out;
+}
+
+void expectBetween(const AreaBounds& says, const OracleArea& truth, double doubt) {
+    EXPECT_LE(says.lo, says.hi);
+    EXPECT_LE(says.lo, truth.hi + doubt) << "not so much: " << says.lo << " to " << says.hi << ", truth " << truth.lo
+                                         << " to " << truth.hi;
+    EXPECT_GE(says.hi, truth.lo - doubt) << "more than that: " << says.lo << " to " << says.hi << ", truth " << truth.lo
+                                         << " to " << truth.hi;
+}
+
+TEST(AreaOracle, TheTruthIsBetweenTheBounds) {
+    const std::uint64_t seed = testSeed();
+    cpu::Detector detector =
+        take(cpu::Detector::create({.threads = 1, .stopAtFirst = true, .projection = Projection::Conservative}));
+    std::map<std::string, std::size_t> ends;
+    std::size_t touching = 0;
+    std::size_t sharp = 0; // the oracle's bounds are near to each other, too
+    const std::size_t cases = randomCases(100000, 400);
+    for (std::uint64_t number = 0; number < cases; ++number) {
+        SCOPED_TRACE("case " + std::to_string(number));
+        const CertifiedCase c = areaCase(seed, number);
+        const HeldCase held(c.scene);
+        const Surface surface = surfaceOf(c.scene);
+        const double tolerance = std::max(1e-3 * surface.area, 1e-9);
+        cpu::AreaMeter meter = take(cpu::AreaMeter::create({.threads = 1, .tolerance = tolerance}));
+        const PairArea says = take(meter.measure(held.batch())).pairs.at(0);
+        const OracleArea truth = take(oracle::areaOracle(c.scene.pair()));
+        expectBetween(says.bounds, truth, surface.doubt);
+        EXPECT_LE(says.bounds.lo, surface.area + surface.doubt);
+        const PairAnswer touch = take(detector.detect(held.batch())).pairs.at(0);
+        EXPECT_TRUE(touch.hit || touch.possible || says.bounds.hi == 0);
+        EXPECT_TRUE(says.bounds.lo == 0 || touch.hit || touch.possible);
+        EXPECT_EQ(says.end == AreaEnd::Closed, says.bounds.hi - says.bounds.lo <= tolerance);
+        ++ends[toString(says.end)];
+        touching += says.bounds.lo > 0 ? 1 : 0;
+        sharp += says.bounds.lo > 0 && truth.hi - truth.lo < 0.1 * truth.hi ? 1 : 0;
+        ASSERT_FALSE(HasFailure());
+    }
+    std::cout << touching << " have an area, " << sharp << " of these are known to a tenth; closed " << ends["closed"]
+              << ", rounding " << ends["rounding"] << ", budget " << ends["budget"] << "\n";
+    EXPECT_GT(touching, cases / 4);
+    EXPECT_GT(sharp, cases / 10);
+    EXPECT_GT(ends["closed"], cases * 3 / 4);
+}
+
+TEST(AreaOracle, TheTruthOfLabelsIsBetweenTheirBounds) {
+    const std::uint64_t seed = testSeed();
+    std::mt19937_64 random(seed);
+    const std::vector<std::int32_t> asked{2, 0, 3, 1, 77, 2};
+    std::size_t touching = 0;
+    std::size_t closed = 0;
+    const std::size_t cases = randomCases(20000, 200);
+    for (std::uint64_t number = 0; number < cases; ++number) {
+        const CertifiedCase c = areaCase(seed, number);
+        const LabelData labels = randomLabels(random, c.scene.volume.grid);
+        HeldCase held(c.scene);
+        held.item.labels = &labels;
+        const Surface surface = surfaceOf(c.scene);
+        const double tolerance = std::max(1e-3 * surface.area, 1e-9);
+        cpu::AreaMeter meter = take(cpu::AreaMeter::create({.threads = 1, .tolerance = tolerance}));
+        const std::vector<LabelArea> says = take(meter.measureLabels(held.batch(), asked)).labels;
+        const AreaBounds whole = take(meter.measure(held.batch())).pairs.at(0).bounds;
+        ASSERT_EQ(says.size(), asked.size());
+        AreaBounds all;
+        for (std::size_t i = 0; i < asked.size(); ++i) {
+            SCOPED_TRACE("case " + std::to_string(number) + ", label " + std::to_string(asked[i]));
+            EXPECT_EQ(says[i].label, asked[i]);
+            expectBetween(says[i].bounds, take(oracle::labelAreaOracle(c.scene.pair(), labels, asked[i])),
+                          surface.doubt);
+            touching += says[i].bounds.lo > 0 ? 1 : 0;
+            closed += says[i].end == AreaEnd::Closed ? 1 : 0;
+            if (i < 4) {
+                all.lo += says[i].bounds.lo;
+                all.hi += says[i].bounds.hi;
+            }
+        }
+        EXPECT_EQ(says[4].bounds.hi, 0); // no voxel has it
+        EXPECT_EQ(says[5].bounds.lo, says[0].bounds.lo);
+        EXPECT_EQ(says[5].bounds.hi, says[0].bounds.hi);
+        // Everything has one of the labels.
+        EXPECT_LE(all.lo, whole.hi + surface.doubt);
+        EXPECT_GE(all.hi, whole.lo - surface.doubt);
+        ASSERT_FALSE(HasFailure());
+    }
+    std::cout << touching << " have an area, " << closed << " closed\n";
+    EXPECT_GT(touching, cases / 4);
+    EXPECT_GT(closed, cases * 6 * 3 / 4);
+}
+
+} // namespace
+} // namespace voxtact::test

@@ -1,0 +1,412 @@
+// SPDX-License-Identifier: MIT
+// Contact areas that are known, and what an AreaMeter keeps from call to call and refuses.
+#include "core/base/infinity.h"
+#include "cpu/clearance/held.h"
+#include "cpu/scenes/engine_fixture.h"
+#include "cpu/scenes/oracle_scenes.h"
+#include "cpu/scenes/random_scene.h"
+#include "support/contact_scenes.h"
+#include "voxtact/samples.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+#include <limits>
+
+namespace voxtact::test {
+namespace {
+
+using testing::HasSubstr;
+
+std::vector<PairArea> areas(const Held& held, std::span<const Mat4> poses, const cpu::AreaDesc& desc = {},
+                            double threshold = 0.5) {
+    cpu::AreaMeter meter = take(cpu::AreaMeter::create(desc));
+    const cpu::BatchItem item{&held.mesh, &held.volume, &held.function, poses};
+    return take(meter.measure({std::span(&item, 1), {}, threshold})).pairs;
+}
+
+PairArea area(const Held& held, const cpu::AreaDesc& desc = {}, double threshold = 0.5, const Mat4& pose = identity()) {
+    return areas(held, std::span(&pose, 1), desc, threshold).at(0);
+}
+
+/// It is between the bounds, and these are as near to each other as was asked for.
+void expectArea(double wanted, const PairArea& found, double tolerance = 1e-6) {
+    EXPECT_LE(found.bounds.lo, wanted + 1e-9 * (1 + wanted));
+    EXPECT_GE(found.bounds.hi, wanted - 1e-9 * (1 + wanted));
+    EXPECT_LE(found.bounds.hi - found.bounds.lo, tolerance);
+    EXPECT_EQ(found.end, AreaEnd::Closed);
+}
+
+double surfaceOf(const MeshData& mesh, const Mat4& pose = identity()) {
+    double sum = 0;
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        std::array<Vec3, 3> t{};
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            const float* at = &mesh.positions[std::size_t{3} * mesh.indices[i + corner]];
+            t[corner] = transformPoint(
+                pose, {static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])});
+        }
+        const Vec3 a{t[1][0] - t[0][0], t[1][1] - t[0][1], t[1][2] - t[0][2]};
+        const Vec3 b{t[2][0] - t[0][0], t[2][1] - t[0][1], t[2][2] - t[0][2]};
+        sum += std::hypot(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]) / 2;
+    }
+    return sum;
+}
+
+/// Each triangle in four.
+MeshData quartered(const MeshData& mesh) {
+    MeshData out;
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        std::array<Vec3, 3> t{};
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            const float* at = &mesh.positions[std::size_t{3} * mesh.indices[i + corner]];
+            t[corner] = {static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])};
+        }
+        const auto half = [](const Vec3& a, const Vec3& b) {
+            return Vec3{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
+        };
+        const Vec3 ab = half(t[0], t[1]);
+        const Vec3 bc = half(t[1], t[2]);
+        const Vec3 ca = half(t[2], t[0]);
+        addTriangle(out, t[0], ab, ca);
+        addTriangle(out, ab, t[1], bc);
+        addTriangle(out, ca, bc, t[2]);
+        addTriangle(out, ab, bc, ca);
+    }
+    return out;
+}
+
+/// 32 voxels a side of 1 mm, the first at the origin, whose value is 8 times x.
+VolumeData valueRamp() {
+    Grid grid;
+    grid.size = {32, 32, 32};
+    return makeBytes(grid, [](auto x, auto, auto) { return 8.0 * x; });
+}
+
+/// Opaque between two values, with steps of almost nothing.
+std::vector<ControlPoint> between(double lo, double hi) {
+    return {{lo, 0}, {lo, 1}, {hi, 1}, {hi, 0}};
+}
+
+/// Entry coordinates 0 to 255 are the values 0.5 to 255.5, so a step at a value is half an entry off.
+constexpr ValueRange kEntries{-0.5, 255.5};
+
+TEST(Area, OfAPlateThroughAHalfSpaceIsWhatIsBeyondThePlane) {
+    // Opaque from where 8 x is 100, by a ramp of opacity from 90 to 110.
+    const std::vector<ControlPoint> points{{90, 0}, {110, 1}};
+    const MeshData plate = makeFlat(2, 22, 3.25, 17.5, 8.75);
+    expectArea((22 - 12.5) * 14.25, area({plate, valueRamp(), points, kEntries}, {.tolerance = 1e-6}));
+    // Askew in the image: a triangle of which a part with the same shape is beyond the plane.
+    const MeshData triangle = oneTriangle({2, 3, 4}, {22, 5, 18}, {2.5, 29, 7});
+    const double all = surfaceOf(triangle);
+    const double beyond = (22 - 12.5) / (22 - 2) * (22 - 12.5) / (22 - 2.5);
+    expectArea(all * beyond, area({triangle, valueRamp(), points, kEntries}, {.tolerance = 1e-6}));
+}
+
+TEST(Area, OfASheetIsBetweenItsFaces) {
+    const std::vector<ControlPoint> sheet{{80, 0}, {100, 1}, {120, 0}}; // half opaque from 90 to 110
+    const MeshData plate = makeFlat(2, 22, 4, 14, 8.75);
+    expectArea((110 - 90) / 8.0 * 10, area({plate, valueRamp(), sheet, kEntries}, {.tolerance = 1e-6}));
+}
+
+/// More intervals in a cell than are looked at together.
+TEST(Area, OfAComb) {
+    std::vector<ControlPoint> comb;
+    double share = 0;
+    Grid grid;
+    grid.size = {4, 4, 4};
+    for (int i = 0; i < 20; ++i) {
+        comb.push_back({12.0 * i, 0});
+        comb.push_back({12.0 * i + 4, 1}); // half opaque from 2 to 8
+        comb.push_back({12.0 * i + 12, 0});
+        share += 6;
+    }
+    const VolumeData steep = makeBytes(grid, [](auto x, auto, auto) { return x >= 2 ? 240 : 0; });
+    const MeshData plate = makeFlat(1, 2, 0.5, 2.75, 1.25);
+    expectArea(share / 240 * 2.25, area({plate, steep, comb, kEntries}, {.tolerance = 1e-4}), 1e-4);
+}
+
+TEST(Area, OfWhatIsOpaqueAllOverIsTheSurfaceInTheVolume) {
+    std::mt19937_64 random(testSeed());
+    const MeshData body = take(makeEllipsoid(2000));
+    for (int i = 0; i < 20; ++i) {
+        Grid grid;
+        grid.size = {40, 50, 60};
+        grid.spacing = {4, 3, 3};
+        grid.origin = {-40, -37, -90};
+        const VolumeData image = moved(makeBytes(grid, [](auto...) { return 255; }), randomMotion(random));
+        const Held held(body, image, byteRamp(), {0, 255});
+        const Mat4 pose =
+            multiply(translation(transformPoint(worldFromIndex(image.grid), {20, 25, 30})), randomRotation(random));
+        expectArea(surfaceOf(body, pose), area(held, {.tolerance = 1e-5}, 0.5, pose), 1e-5);
+    }
+    // A plate that is half outside.
+    const Held out(makeFlat(-10, 10, 5, 15, 8.3), makeBytes(unitGrid(1), [](auto...) { return 255; }), byteRamp(),
+                   {0, 255});
+    EXPECT_EQ(area(out).bounds.hi, 0);
+    Grid grid;
+    grid.size = {20, 20, 20};
+    const Held half(makeFlat(-10, 10, 5, 15, 8.3), makeBytes(grid, [](auto...) { return 255; }), byteRamp(), {0, 255});
+    expectArea(10.5 * 10, area(half, {.tolerance = 1e-6}));
+}
+
+TEST(Area, CountsEachOfTwoPlatesOnEachOther) {
+    MeshData twice = makeFlat(2, 10, 3, 9, 8.75);
+    const std::size_t vertices = twice.positions.size() / 3;
+    const MeshData once = twice;
+    twice.positions.insert(twice.positions.end(), once.positions.begin(), once.positions.end());
+    for (const std::uint32_t index : once.indices) {
+        twice.indices.push_back(index + static_cast<std::uint32_t>(vertices));
+    }
+    Grid grid;
+    grid.size = {20, 20, 20};
+    const VolumeData image = makeBytes(grid, [](auto...) { return 255; });
+    expectArea(2 * 48.0, area({twice, image, byteRamp(), {0, 255}}, {.tolerance = 1e-6}));
+}
+
+TEST(Area, IsTheSameHoweverTheSurfaceIsCutAndWhereverTheWorldIs) {
+    std::mt19937_64 random(testSeed());
+    std::size_t apart = 0;
+    for (int round = 0; round < 20; ++round) {
+        const RandomScene scene = makeRandomScene(random, 2);
+        const Mat4 motion = randomMotion(random);
+        const double tolerance = 1e-4 * surfaceOf(scene.mesh);
+        for (const Mat4& pose : scene.poses) {
+            const auto measured = [&](const MeshData& mesh, const VolumeData& volume, const Mat4& at) {
+                return area({mesh, volume, scene.points, scene.domain, scene.tableSize}, {.tolerance = tolerance},
+                            scene.threshold, at)
+                    .bounds;
+            };
+            const AreaBounds as = measured(scene.mesh, scene.volume, pose);
+            const AreaBounds cut = measured(quartered(quartered(scene.mesh)), scene.volume, pose);
+            const AreaBounds elsewhere = measured(scene.mesh, moved(scene.volume, motion), multiply(motion, pose));
+            // A vertex that is a float is off its place by a ten-millionth of the mesh.
+            const double slack = 1e-5 * surfaceOf(scene.mesh);
+            for (const AreaBounds& other : {cut, elsewhere}) {
+                EXPECT_LE(as.lo, other.hi + slack);
+                EXPECT_GE(as.hi, other.lo - slack);
+            }
+            apart += as.lo > 0 ? 1 : 0;
+        }
+    }
+    std::cout << apart << " have an area\n";
+    EXPECT_GT(apart, 5U);
+}
+
+/// Plates in faces of cells, through their middles, and through voxels' centres: nothing is lost between two cells, and
+/// nothing counts twice.
+TEST(Area, OfPlatesInFacesOfCells) {
+    Grid grid;
+    grid.size = {20, 20, 20};
+    const VolumeData image = makeBytes(grid, [](auto x, auto y, auto z) { return 100.0 + (x + 2 * y + 3 * z) % 7; });
+    for (const double at : {5.0, 5.5, 7.0, 8.0, 15.0, 16.0}) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto corner = [&](double u, double v) {
+                Vec3 out{};
+                out[axis] = at;
+                out[(axis + 1) % 3] = u;
+                out[(axis + 2) % 3] = v;
+                return out;
+            };
+            const MeshData plate = makeRectangle(corner(3, 4), corner(17, 4), corner(17, 16), corner(3, 16));
+            expectArea(14.0 * 12.0, area({plate, image, byteRamp(), {0, 255}}, {.tolerance = 1e-6}, 0.2));
+        }
+    }
+}
+
+/// Rounding decides whether a plate in a face of the image is in it.
+TEST(Area, OfAPlateInAFaceOfTheImageIsLeftOpen) {
+    Grid grid;
+    grid.size = {20, 20, 20};
+    const VolumeData image = makeBytes(grid, [](auto...) { return 255; });
+    const PairArea found = area({makeFlat(3, 13, 4, 14, -0.5), image, byteRamp(), {0, 255}});
+    EXPECT_EQ(found.bounds.lo, 0);
+    EXPECT_GE(found.bounds.hi, 100);
+    EXPECT_LE(found.bounds.hi, 100.001);
+    EXPECT_EQ(found.end, AreaEnd::Rounding);
+    // A millionth of a millimetre within, it is.
+    const Mat4 within = translation({0, 0, 1e-6});
+    expectArea(100,
+               area({makeFlat(3, 13, 4, 14, -0.5), image, byteRamp(), {0, 255}}, {.tolerance = 1e-6}, 0.5, within));
+}
+
+TEST(Area, OfWhatIsTouchedAtAPointIsNothing) {
+    const Held held(makeFlat(2, 12.4, 3, 9, 8.75), valueRamp(), std::vector<ControlPoint>{{90, 0}, {110, 1}}, kEntries);
+    EXPECT_EQ(area(held).bounds.hi, 0);
+    EXPECT_EQ(area(held).end, AreaEnd::Closed);
+}
+
+TEST(Area, IsTrueWithFewSteps) {
+    std::mt19937_64 random(testSeed());
+    std::size_t budget = 0;
+    for (int round = 0; round < 40; ++round) {
+        const RandomScene scene = makeRandomScene(random, 3);
+        const Held held(scene.mesh, scene.volume, scene.points, scene.domain, scene.tableSize);
+        const double fine = 1e-5 * surfaceOf(scene.mesh) + 1e-9;
+        const auto measured = [&](std::uint64_t steps) {
+            return areas(held, scene.poses, {.threads = 1, .tolerance = fine, .mostSteps = steps}, scene.threshold);
+        };
+        const std::vector<PairArea> best = measured(1U << 18U);
+        for (const std::uint64_t steps : {1ULL, 3ULL, 100ULL}) {
+            const std::vector<PairArea> rough = measured(steps);
+            for (std::size_t i = 0; i < best.size(); ++i) {
+                EXPECT_LE(rough[i].bounds.lo, best[i].bounds.hi);
+                EXPECT_GE(rough[i].bounds.hi, best[i].bounds.lo);
+                EXPECT_GE(rough[i].bounds.hi - rough[i].bounds.lo,
+                          0.99 * (best[i].bounds.hi - best[i].bounds.lo) - fine);
+                EXPECT_EQ(rough[i].end == AreaEnd::Closed, rough[i].bounds.hi - rough[i].bounds.lo <= fine);
+                budget += rough[i].end == AreaEnd::Budget ? 1 : 0;
+            }
+        }
+    }
+    std::cout << budget << " took too many steps\n";
+    EXPECT_GT(budget, 10U);
+}
+
+/// Neither threads nor what else is in the batch changes an answer.
+TEST(Area, DoesNotDependOnItsCompany) {
+    std::mt19937_64 random(testSeed());
+    const RandomScene scene = makeRandomScene(random, 40);
+    const Held held(scene.mesh, scene.volume, scene.points, scene.domain, scene.tableSize);
+    const std::vector<PairArea> alone = areas(held, scene.poses, {.threads = 1}, scene.threshold);
+    const std::vector<PairArea> together = areas(held, scene.poses, {.threads = 3}, scene.threshold);
+    ASSERT_EQ(alone.size(), scene.poses.size());
+    for (std::size_t i = 0; i < alone.size(); ++i) {
+        const PairArea one = area(held, {.threads = 1}, scene.threshold, scene.poses[i]);
+        EXPECT_EQ(alone[i].pose, i);
+        for (const PairArea& other : {together[i], one}) {
+            EXPECT_EQ(alone[i].bounds.lo, other.bounds.lo) << i;
+            EXPECT_EQ(alone[i].bounds.hi, other.bounds.hi) << i;
+            EXPECT_EQ(alone[i].end, other.end) << i;
+        }
+    }
+}
+
+TEST(Area, SeesEditsAndNewTransferFunctions) {
+    Held held(makeFlat(2, 12, 3, 9, 8), valueRamp(), between(1000, 1001), kEntries);
+    cpu::AreaMeter meter = take(cpu::AreaMeter::create({.threads = 1, .tolerance = 1e-6}));
+    const Mat4 pose = identity();
+    const auto measured = [&] {
+        const cpu::BatchItem item{&held.mesh, &held.volume, &held.function, std::span(&pose, 1)};
+        return take(meter.measure({std::span(&item, 1), {}, 0.5})).pairs.at(0);
+    };
+    EXPECT_EQ(measured().bounds.hi, 0);
+    held.function = take(cpu::TransferFunction::create({byteRamp(), {0, 255}}));
+    EXPECT_EQ(measured().bounds.hi, 0);
+    ASSERT_TRUE(held.volume.set(VoxelBox{{0, 0, 0}, {32, 32, 32}}, 255).ok());
+    expectArea(60, measured());
+}
+
+/// Voxels of -10^30 for *no data* cost nothing but next to themselves.
+TEST(Area, IsNotSpoiltByAnOutlier) {
+    Grid grid;
+    grid.size = {24, 24, 24};
+    const VolumeData image = makeVolume<float>(grid, ScalarType::Float32, [](auto x, auto y, auto z) {
+        return x == 20 && y == 20 && z == 20 ? -1e30 : 10.0 * x;
+    });
+    const Held held(makeFlat(2, 16, 3, 9, 8.75), image, std::vector<ControlPoint>{{90, 0}, {110, 1}}, {0, 255});
+    expectArea(6 * 6.0, area(held, {.tolerance = 1e-6}));
+    const PairArea near =
+        area({makeFlat(2, 22, 3, 22, 19.75), image, std::vector<ControlPoint>{{90, 0}, {110, 1}}, {0, 255}});
+    // Of the four cells around the outlier that the plate goes through nothing is sure.
+    EXPECT_LE(near.bounds.lo, 12 * 19.0);
+    EXPECT_GE(near.bounds.lo, 12 * 19.0 - 16.001);
+    EXPECT_LE(near.bounds.hi, 12 * 19.0 + 1e-6);
+}
+
+TEST(Area, OfWhatIsTooFarAwayToTellIsUnknown) {
+    const Held held(makeFlat(-1e16, 1e16, -1e16, 1e16, 8), valueRamp(), byteRamp(), {0, 255});
+    const PairArea found = area(held);
+    EXPECT_EQ(found.bounds.lo, 0);
+    EXPECT_EQ(found.bounds.hi, kInfinity);
+    EXPECT_EQ(found.end, AreaEnd::Rounding);
+}
+
+std::vector<LabelArea> labelAreas(const Held& held, const LabelData* labels, std::span<const std::int32_t> asked,
+                                  const cpu::AreaDesc& desc = {.threads = 1, .tolerance = 1e-6}) {
+    cpu::AreaMeter meter = take(cpu::AreaMeter::create(desc));
+    const Mat4 pose = identity();
+    const cpu::BatchItem item{&held.mesh, &held.volume, &held.function, std::span(&pose, 1), labels};
+    return take(meter.measureLabels({std::span(&item, 1), {}, 0.5}, asked)).labels;
+}
+
+TEST(Area, OfLabelsIsCutBetweenVoxels) {
+    Grid grid;
+    grid.size = {32, 32, 32};
+    const LabelData labels =
+        take(makeLabels(makeBytes(grid, [](auto x, auto y, auto) { return x < 15 ? 7 : (y < 8 ? 9 : 0); }).view()));
+    // Opaque from x = 12.5 on; labels 7 to x = 14.5, 9 to y = 7.5.
+    const Held held(makeFlat(2, 22, 3, 17, 8.75), valueRamp(), std::vector<ControlPoint>{{90, 0}, {110, 1}}, kEntries);
+    const std::vector<std::int32_t> asked{9, 7, 3, 0, 9};
+    const std::vector<LabelArea> found = labelAreas(held, &labels, asked);
+    ASSERT_EQ(found.size(), asked.size());
+    const std::vector<double> wanted{7.5 * 4.5, 2.0 * 14, 0, 7.5 * 9.5, 7.5 * 4.5};
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+        EXPECT_EQ(found[i].label, asked[i]);
+        EXPECT_LE(found[i].bounds.lo, wanted[i] + 1e-9) << i;
+        EXPECT_GE(found[i].bounds.hi, wanted[i] - 1e-9) << i;
+        EXPECT_LE(found[i].bounds.hi - found[i].bounds.lo, 1e-6) << i;
+        EXPECT_EQ(found[i].end, AreaEnd::Closed) << i;
+    }
+}
+
+/// A plate in the face between two labels is in either, as far as can be told, and in no other.
+TEST(Area, OfAPlateBetweenLabelsMayBeInEither) {
+    Grid grid;
+    grid.size = {20, 20, 20};
+    const LabelData labels =
+        take(makeLabels(makeBytes(grid, [](auto, auto, auto z) { return z < 8 ? 1 : (z == 8 ? 2 : 3); }).view()));
+    const Held held(makeFlat(3, 13, 4, 14, 7.5), makeBytes(grid, [](auto...) { return 255; }), byteRamp(), {0, 255});
+    const std::vector<LabelArea> found = labelAreas(held, &labels, std::vector<std::int32_t>{1, 2, 3});
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(found[i].bounds.lo, 0);
+        EXPECT_NEAR(found[i].bounds.hi, 100, 1e-6);
+        EXPECT_EQ(found[i].end, AreaEnd::Rounding);
+    }
+    EXPECT_EQ(found[2].bounds.hi, 0);
+}
+
+TEST(Area, RefusesWhatItCannotUse) {
+    const auto refused = [](const cpu::AreaDesc& desc) {
+        const Result<cpu::AreaMeter> meter = cpu::AreaMeter::create(desc);
+        return meter.ok() ? std::string() : meter.error().text;
+    };
+    EXPECT_THAT(refused({.tolerance = 0}), HasSubstr("the tolerance 0 mm^2 is not a number from 1e-09 mm^2 on"));
+    EXPECT_THAT(refused({.tolerance = std::numeric_limits<double>::quiet_NaN()}), HasSubstr("mm^2"));
+    EXPECT_THAT(refused({.tolerance = kInfinity}), HasSubstr("mm^2"));
+    EXPECT_THAT(refused({.mostSteps = 0}), HasSubstr("at most 0 steps"));
+    EXPECT_THAT(refused({.resolution = 2}), HasSubstr("resolution"));
+    EXPECT_THAT(refused({.threads = 5000}), HasSubstr("5000 threads"));
+
+    const Held held(makeFlat(2, 12, 3, 9, 8), valueRamp(), byteRamp(), {0, 255});
+    cpu::AreaMeter meter = take(cpu::AreaMeter::create({.threads = 1}));
+    const Mat4 pose = identity();
+    cpu::BatchItem item{&held.mesh, &held.volume, &held.function, std::span(&pose, 1)};
+    const cpu::Batch batch{std::span(&item, 1), {}, 0.5};
+    const std::vector<std::int32_t> one{1};
+    EXPECT_THAT(meter.measureLabels(batch, one).error().text, HasSubstr("batch item 0"));
+    Grid other;
+    other.size = {31, 32, 32};
+    const LabelData labels = take(makeLabels(makeBytes(other, [](auto...) { return 1; }).view()));
+    item.labels = &labels;
+    EXPECT_EQ(meter.measureLabels(batch, one).error().code, ErrorCode::Unsupported);
+    const LabelData fitting = take(makeLabels(valueRamp().view()));
+    item.labels = &fitting;
+    EXPECT_TRUE(meter.measureLabels(batch, one).ok());
+    const std::vector<std::int32_t> many(kMostMeasuredLabels + 1, 1);
+    EXPECT_EQ(meter.measureLabels(batch, many).error().code, ErrorCode::LimitExceeded);
+    EXPECT_TRUE(take(meter.measureLabels(batch, {})).labels.empty());
+    item.mesh = nullptr;
+    EXPECT_FALSE(meter.measure(batch).ok());
+}
+
+TEST(Area, NamesItsEnds) {
+    EXPECT_STREQ(toString(AreaEnd::Closed), "closed");
+    EXPECT_STREQ(toString(AreaEnd::Rounding), "rounding");
+    EXPECT_STREQ(toString(AreaEnd::Budget), "budget");
+}
+
+} // namespace
+} // namespace voxtact::test
