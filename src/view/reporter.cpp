@@ -13,6 +13,7 @@ Reporter::Seen Reporter::look(const State& state) {
     Seen seen;
     seen.revision = state.answer ? state.answer->revision : 0;
     seen.measured = state.clearance ? state.clearance->revision : 0;
+    seen.areas = state.clearance && state.clearance->hasAreas();
     seen.chosen = state.document.edit.chosen;
     seen.settled = state.settled();
     seen.error = state.error;

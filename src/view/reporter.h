@@ -20,6 +20,7 @@ class Reporter {
     struct Seen {
         std::uint64_t revision = 0;
         std::uint64_t measured = 0; ///< the clearance's revision
+        bool areas = false;         ///< and it has areas
         std::size_t chosen = 0;
         bool settled = false;
         std::string error;

@@ -305,7 +305,7 @@ const MeshAnswer* State::chosenAnswer() const {
     return answer ? answer->of(document.edit.instrument().mesh) : nullptr;
 }
 
-const PairClearance* State::chosenClearance() const {
+const MeshClearance* State::chosenClearance() const {
     return clearance ? clearance->of(document.edit.instrument().mesh) : nullptr;
 }
 

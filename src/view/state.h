@@ -139,7 +139,7 @@ struct State {
     void remove(std::size_t number);
     /// Of the chosen instrument; null where there is none yet.
     [[nodiscard]] const MeshAnswer* chosenAnswer() const;
-    [[nodiscard]] const PairClearance* chosenClearance() const;
+    [[nodiscard]] const MeshClearance* chosenClearance() const;
     /// Since it was made.
     [[nodiscard]] double seconds() const;
     /// Nothing was changed for a moment.

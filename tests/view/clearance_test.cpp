@@ -23,7 +23,18 @@ PairClearance clearance(double lo, double hi) {
     return out;
 }
 
-nlohmann::json reported(const LiveClearance& live, std::uint64_t answered) {
+MeshClearance measured(double lo, double hi) {
+    return {0, clearance(lo, hi), {}};
+}
+
+/// One that touches.
+MeshClearance touching(double lo, double hi) {
+    MeshClearance out = measured(0, 0);
+    out.area = PairArea{.bounds = {lo, hi}, .end = AreaEnd::Budget};
+    return out;
+}
+
+nlohmann::json allReported(const LiveClearance& live, std::uint64_t answered) {
     LiveAnswer answer;
     answer.revision = answered;
     answer.meshes.resize(1);
@@ -35,23 +46,27 @@ nlohmann::json reported(const LiveClearance& live, std::uint64_t answered) {
     report.frameTimes = report.times;
     report.document = &document;
     report.clearance = &live;
-    return nlohmann::json::parse(reportText(report))["clearance"];
+    return nlohmann::json::parse(reportText(report));
+}
+
+nlohmann::json reported(const LiveClearance& live, std::uint64_t answered) {
+    return allReported(live, answered)["clearance"];
 }
 
 } // namespace
 
 TEST(ViewClearance, IsSaidInWords) {
-    EXPECT_EQ(clearanceText(clearance(12.341, 12.349)), "12.34 to 12.35 mm away");
-    EXPECT_EQ(clearanceText(clearance(0, 0)), "touches");
-    EXPECT_EQ(clearanceText(clearance(0, 0.004)), "0.00 to 0.0040 mm away");
-    EXPECT_EQ(clearanceText(clearance(kInfinity, kInfinity)), "nothing is opaque");
-    EXPECT_EQ(clearanceText(clearance(5, kInfinity)), "at least 5.00 mm away");
+    EXPECT_EQ(clearanceText(measured(12.341, 12.349)), "12.34 to 12.35 mm away");
+    EXPECT_EQ(clearanceText(measured(0, 0)), "touches");
+    EXPECT_EQ(clearanceText(measured(0, 0.004)), "0.00 to 0.0040 mm away");
+    EXPECT_EQ(clearanceText(measured(kInfinity, kInfinity)), "nothing is opaque");
+    EXPECT_EQ(clearanceText(measured(5, kInfinity)), "at least 5.00 mm away");
 }
 
 TEST(ViewClearance, BoundsAreRoundedOutward) {
-    EXPECT_EQ(clearanceText(clearance(18.3569, 18.3649)), "18.35 to 18.37 mm away");
-    EXPECT_EQ(clearanceText(clearance(18.3534, 18.36345)), "18.35 to 18.37 mm away");
-    EXPECT_EQ(clearanceText(clearance(123.456789, kInfinity)), "at least 123.45 mm away");
+    EXPECT_EQ(clearanceText(measured(18.3569, 18.3649)), "18.35 to 18.37 mm away");
+    EXPECT_EQ(clearanceText(measured(18.3534, 18.36345)), "18.35 to 18.37 mm away");
+    EXPECT_EQ(clearanceText(measured(123.456789, kInfinity)), "at least 123.45 mm away");
     EXPECT_EQ(lowerText(0.029999), "0.029");
     EXPECT_EQ(upperText(0.00120001), "0.0013");
     EXPECT_EQ(upperText(1e-12), "0.000001");
@@ -78,7 +93,7 @@ TEST(ViewClearance, APlaneIsAsFarAsTheNearerEnd) {
 }
 
 TEST(ViewClearance, IsReportedWithItsPointsAndOnlyForTheSameQuestion) {
-    const LiveClearance live{3, {{0, clearance(7, 7.5)}}, 1};
+    const LiveClearance live{3, {measured(7, 7.5)}, 1};
     const nlohmann::json json = reported(live, 3);
     EXPECT_EQ(json["lo"], 7);
     EXPECT_EQ(json["hi"], 7.5);
@@ -91,10 +106,30 @@ TEST(ViewClearance, IsReportedWithItsPointsAndOnlyForTheSameQuestion) {
 }
 
 TEST(ViewClearance, WhatJsonHasNoNumberForIsAWord) {
-    const nlohmann::json json = reported({1, {{0, clearance(kInfinity, kInfinity)}}, 1}, 1);
+    const nlohmann::json json = reported({1, {measured(kInfinity, kInfinity)}, 1}, 1);
     EXPECT_EQ(json["lo"], "inf");
     EXPECT_EQ(json["hi"], "inf");
     EXPECT_FALSE(json.contains("mesh"));
+}
+
+TEST(ViewClearance, SaysHowMuchTouches) {
+    EXPECT_EQ(clearanceText(touching(820.051, 820.149)), "820.05 to 820.15 mm\u00b2 touch");
+    EXPECT_EQ(clearanceText(touching(0.001, 0.1)), "0.0010 to 0.10 mm\u00b2 touch");
+    EXPECT_EQ(clearanceText(touching(0, 0)), "touches") << "at a point";
+    EXPECT_EQ(clearanceText(touching(0, kInfinity)), "touches");
+    MeshClearance apart = touching(0, 0);
+    apart.pair = clearance(5, 6);
+    EXPECT_EQ(clearanceText(apart), "5.00 to 6.00 mm away");
+
+    const nlohmann::json json = allReported({1, {touching(7, 7.5)}, 1}, 1)["area"];
+    EXPECT_EQ(json["lo"], 7);
+    EXPECT_EQ(json["hi"], 7.5);
+    EXPECT_EQ(json["end"], "budget");
+    EXPECT_EQ(allReported({1, {touching(0, kInfinity)}, 1}, 1)["area"]["hi"], "inf");
+    EXPECT_TRUE(allReported({1, {touching(7, 7.5)}, 1}, 2)["area"].is_null());
+    EXPECT_TRUE(allReported({1, {measured(0, 0)}, 1}, 1)["area"].is_null());
+    EXPECT_TRUE((LiveClearance{1, {touching(7, 7.5)}, 1}).hasAreas());
+    EXPECT_FALSE((LiveClearance{1, {touching(7, 7.5), measured(0, 0)}, 1}).hasAreas());
 }
 
 } // namespace voxtact::test

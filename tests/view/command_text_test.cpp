@@ -203,7 +203,7 @@ TEST(ViewReport, IsJsonWithWhatTheContractPromises) {
     shown.edit.instruments.front().world_from_object = translation({5, 6, 7});
     shown.edit.instruments.push_back({1, identity(), false});
     const LiveAnswer answer = liveAnswer(batch, 1, shown.edit.instruments, 0.5);
-    const LiveClearance clearance{1, {{1, {}}}, 0};
+    const LiveClearance clearance{1, {{1, {}, {}}}, 0};
     Times times;
     StateReport report;
     report.answer = &answer;

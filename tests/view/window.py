@@ -177,21 +177,22 @@ def answer_of(program, command):
 
 
 def compare(program, state):
-    """The state's answer is that of its command; where it has a clearance, that is the host's."""
+    """The state's answer is that of its command; where it has a clearance and an area, these are the host's."""
     row = answer_of(program, state["command"])
     for name in ("hit", "count", "exact", "method", "projection"):
         if row[name] != str(state[name]):
             fail(f"{name}: the window says {state[name]}, its command {row[name]}: {state['command']}")
     if "labels" in state and labels_text(state) != row["labels"]:
         fail(f"labels: the window says {labels_text(state)}, its command {row['labels']}: {state['command']}")
-    if not state["clearance"]:
-        return
-    command = re.sub("--projection .*", "--projection conservative --count cpu --clearance", state["command"])
-    row = answer_of(program, command)
-    for name in ("lo", "hi"):
-        said, is_so = float(state["clearance"][name]), float(row["clearance_" + name])
-        if said != is_so and abs(said - is_so) > 1e-6 * is_so:
-            fail(f"clearance {name}: the window says {said}, its command {is_so}: {command}")
+    for what in ("clearance", "area"):
+        if not state[what]:
+            continue
+        command = re.sub("--projection .*", f"--projection conservative --count cpu --{what}", state["command"])
+        row = answer_of(program, command)
+        for name in ("lo", "hi"):
+            said, is_so = float(state[what][name]), float(row[f"{what}_{name}"])
+            if said != is_so and abs(said - is_so) > 1e-6 * is_so:
+                fail(f"{what} {name}: the window says {said}, its command {is_so}: {command}")
 
 
 def labels_text(state):

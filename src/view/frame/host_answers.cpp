@@ -121,7 +121,15 @@ void HostAnswers::follow(const LiveQuestion& question, const std::vector<HoleWri
     if (rowOf(question.method.count).host) {
         give(answer_, guard([&] { return answer(question, stop_); }));
     }
-    give(clearance_, guard([&] { return measure(question); }));
+    const Result<LiveClearance> clearance = guard([&] { return measure(question); });
+    give(clearance_, clearance);
+    if (!clearance.ok()) {
+        return;
+    }
+    Result<LiveClearance> all = guard([&] { return withAreas(question, *clearance); });
+    if (all.ok() || all.error().code != ErrorCode::Cancelled) {
+        give(clearance_, std::move(all));
+    }
 }
 
 Result<cpu::Batch> HostAnswers::batchOf(const LiveQuestion& question, const std::atomic<bool>& cancel) {
@@ -180,9 +188,27 @@ Result<LiveClearance> HostAnswers::measure(const LiveQuestion& question) {
     VOXTACT_TRY(found);
     LiveClearance out{question.revision, {}, since(begun)};
     for (std::size_t i = 0; i < found->pairs.size(); ++i) {
-        out.meshes.push_back({question.edit.instruments[i].mesh, found->pairs[i]});
+        out.meshes.push_back({question.edit.instruments[i].mesh, found->pairs[i], {}});
     }
     return out;
+}
+
+Result<LiveClearance> HostAnswers::withAreas(const LiveQuestion& question, LiveClearance clearance) {
+    if (!areaMeter_) {
+        Result<cpu::AreaMeter> made = cpu::AreaMeter::create();
+        VOXTACT_TRY(made);
+        areaMeter_ = std::move(*made);
+    }
+    const auto begun = State::Clock::now();
+    const Result<cpu::Batch> batch = batchOf(question, newer_);
+    VOXTACT_TRY(batch);
+    const Result<AreaAnswer> found = areaMeter_->measure(*batch);
+    VOXTACT_TRY(found);
+    for (std::size_t i = 0; i < found->pairs.size(); ++i) {
+        clearance.meshes[i].area = found->pairs[i];
+    }
+    clearance.milliseconds += since(begun);
+    return clearance;
 }
 
 } // namespace voxtact::view

@@ -13,16 +13,16 @@
 
 namespace voxtact::view {
 
-/// Answers of the host engine and clearances, on a thread of its own: of several questions the last is answered. A
-/// clearance that is being measured gives way to a new question, and so does a comparison.
+/// Answers of the host engine, clearances and areas, on a thread of its own: of several questions the last is answered.
+/// What is being measured gives way to a new question, and so does a comparison.
 class HostAnswers {
   public:
     /// Copies what it needs of the state. `wake`: called from its thread when there is an answer.
     [[nodiscard]] static Result<std::unique_ptr<HostAnswers>> create(const State& state, std::function<void()> wake);
     ~HostAnswers();
 
-    /// The clearance, and the answer where the question's method is the host's. `writes`: to the volume since it was
-    /// read.
+    /// The clearance, then the area, and the answer where the question's method is the host's. `writes`: to the volume
+    /// since it was read.
     void ask(LiveQuestion question, const HoleWrites& writes);
     /// The number of the first write that was not taken over yet.
     [[nodiscard]] std::uint64_t written() const { return written_; }
@@ -32,7 +32,7 @@ class HostAnswers {
     [[nodiscard]] std::optional<Result<LiveAnswer>> takeCompared();
     /// The newest answer, once; nothing where there is no new one.
     [[nodiscard]] std::optional<Result<LiveAnswer>> take();
-    /// The same of clearances.
+    /// The same of clearances: once without and once with areas.
     [[nodiscard]] std::optional<Result<LiveClearance>> takeClearance();
 
   private:
@@ -43,6 +43,8 @@ class HostAnswers {
     [[nodiscard]] Result<cpu::Batch> batchOf(const LiveQuestion& question, const std::atomic<bool>& cancel);
     [[nodiscard]] Result<LiveAnswer> answer(const LiveQuestion& question, const std::atomic<bool>& cancel);
     [[nodiscard]] Result<LiveClearance> measure(const LiveQuestion& question);
+    /// The same with areas.
+    [[nodiscard]] Result<LiveClearance> withAreas(const LiveQuestion& question, LiveClearance clearance);
     void follow(const LiveQuestion& question, const std::vector<HoleWrite>& writes);
 
     cpu::Volume volume_;
@@ -54,6 +56,7 @@ class HostAnswers {
     std::function<void()> wake_;
     std::map<Projection, cpu::Detector> detectors_;
     std::optional<cpu::ClearanceMeter> meter_;
+    std::optional<cpu::AreaMeter> areaMeter_;
     std::optional<cpu::TransferFunction> function_;
     Curve functionOf_; ///< what function_ was made from
     std::vector<Mat4> poses_;

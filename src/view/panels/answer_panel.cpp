@@ -88,7 +88,7 @@ void drawLabels(const State& state) {
 }
 
 void drawClearance(const State& state) {
-    const PairClearance* clearance = state.chosenClearance();
+    const MeshClearance* clearance = state.chosenClearance();
     if (clearance == nullptr) {
         ImGui::TextColored(quietColour(), "measuring ...");
         return;
@@ -99,8 +99,9 @@ void drawClearance(const State& state) {
     ImGui::TextColored(colour, "%s", shortened(text, ImGui::GetContentRegionAvail().x).c_str());
     if (ImGui::IsItemHovered()) {
         ImGui::SetTooltip("%s\n"
-                          "The clearance, certified: between these bounds lies the least distance between\n"
-                          "the mesh and what is opaque. By the host, in %.1f ms for all meshes.",
+                          "Certified, by the host, in %.1f ms for all meshes: between these bounds lies\n"
+                          "the least distance between the mesh and what is opaque or, where it touches,\n"
+                          "the area of its surface that is opaque.",
                           text.c_str(), state.clearance->milliseconds);
     }
 }

@@ -19,10 +19,14 @@ std::string nameOf(const MeshSource& source) {
     return name.empty() ? source.path : name;
 }
 
-std::string nearness(const PairClearance& clearance) {
-    const auto& [lo, hi] = clearance.bounds;
+/// How near, or how much of it touches.
+std::string nearness(const MeshClearance& clearance) {
+    const auto& [lo, hi] = clearance.pair.bounds;
     if (std::isinf(lo)) {
         return "-";
+    }
+    if (hi == 0 && clearance.area && clearance.area->bounds.lo > 0) {
+        return lowerText(clearance.area->bounds.lo) + " mm\u00b2";
     }
     return (std::isinf(hi) ? "> " : "") + lowerText(lo) + " mm";
 }
@@ -42,7 +46,7 @@ void drawSaid(const State& state, std::size_t mesh) {
         ImGui::Text("%s%llu", exact, static_cast<unsigned long long>(answer->pair.count));
     }
     ImGui::TableNextColumn();
-    if (const PairClearance* clearance = state.clearance ? state.clearance->of(mesh) : nullptr) {
+    if (const MeshClearance* clearance = state.clearance ? state.clearance->of(mesh) : nullptr) {
         const bool current = state.clearance->revision == state.revision;
         const ImVec4 colour = current ? ImGui::GetStyle().Colors[ImGuiCol_Text] : quietColour();
         ImGui::TextColored(colour, "%s", nearness(*clearance).c_str());

@@ -57,8 +57,8 @@ void drawPath(const State& state, const Onto& onto, ImDrawList& list) {
 }
 
 void drawClosest(const State& state, const Onto& onto, ImDrawList& list) {
-    const PairClearance* clearance = state.chosenClearance();
-    const auto segment = clearance != nullptr ? closestSegment(*clearance) : std::nullopt;
+    const MeshClearance* clearance = state.chosenClearance();
+    const auto segment = clearance != nullptr ? closestSegment(clearance->pair) : std::nullopt;
     if (!segment) {
         return;
     }
@@ -69,7 +69,7 @@ void drawClosest(const State& state, const Onto& onto, ImDrawList& list) {
     list.AddLine(from, to, colour, scaled(2));
     list.AddCircleFilled(from, scaled(3.5F), colour);
     list.AddCircleFilled(to, scaled(3.5F), colour);
-    const std::string text = upperText(clearance->bounds.hi) + " mm";
+    const std::string text = upperText(clearance->pair.bounds.hi) + " mm";
     const ImVec2 at{(from.x + to.x) / 2 + scaled(8), (from.y + to.y) / 2 - ImGui::GetFontSize() / 2};
     list.AddText({at.x + scaled(1), at.y + scaled(1)}, IM_COL32(0, 0, 0, 200), text.c_str());
     list.AddText(at, colour, text.c_str());

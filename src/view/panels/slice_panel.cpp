@@ -64,8 +64,8 @@ void drawMesh(const State& state, const Instrument& instrument, std::size_t slic
 
 /// Where it does not go through the slice it is faint.
 void drawClosest(const State& state, std::size_t slice, const SlicePlace& place, const Rect& rect, ImDrawList& list) {
-    const PairClearance* clearance = state.chosenClearance();
-    const auto segment = clearance != nullptr ? closestSegment(*clearance) : std::nullopt;
+    const MeshClearance* clearance = state.chosenClearance();
+    const auto segment = clearance != nullptr ? closestSegment(clearance->pair) : std::nullopt;
     if (!segment) {
         return;
     }

@@ -169,7 +169,7 @@ TEST(Area, CountsEachOfTwoPlatesOnEachOther) {
 TEST(Area, IsTheSameHoweverTheSurfaceIsCutAndWhereverTheWorldIs) {
     std::mt19937_64 random(testSeed());
     std::size_t apart = 0;
-    for (int round = 0; round < 20; ++round) {
+    for (int round = 0; round < 20 || (round < 1000 && apart <= 5); ++round) {
         const RandomScene scene = makeRandomScene(random, 2);
         const Mat4 motion = randomMotion(random);
         const double tolerance = 1e-4 * surfaceOf(scene.mesh);
@@ -241,14 +241,14 @@ TEST(Area, OfWhatIsTouchedAtAPointIsNothing) {
 TEST(Area, IsTrueWithFewSteps) {
     std::mt19937_64 random(testSeed());
     std::size_t budget = 0;
-    for (int round = 0; round < 40; ++round) {
+    for (int round = 0; round < 40 || (round < 1000 && budget <= 10); ++round) {
         const RandomScene scene = makeRandomScene(random, 3);
         const Held held(scene.mesh, scene.volume, scene.points, scene.domain, scene.tableSize);
         const double fine = 1e-5 * surfaceOf(scene.mesh) + 1e-9;
         const auto measured = [&](std::uint64_t steps) {
             return areas(held, scene.poses, {.threads = 1, .tolerance = fine, .mostSteps = steps}, scene.threshold);
         };
-        const std::vector<PairArea> best = measured(1U << 18U);
+        const std::vector<PairArea> best = measured(1U << 14U);
         for (const std::uint64_t steps : {1ULL, 3ULL, 100ULL}) {
             const std::vector<PairArea> rough = measured(steps);
             for (std::size_t i = 0; i < best.size(); ++i) {
@@ -265,16 +265,51 @@ TEST(Area, IsTrueWithFewSteps) {
     EXPECT_GT(budget, 10U);
 }
 
+/// Of triangles in a cell or two of noise, before anything is divided: where the interpolant bends most.
+TEST(Area, HoldsBeforeAPartIsDivided) {
+    std::mt19937_64 random(testSeed());
+    Grid grid;
+    grid.size = {8, 8, 8};
+    const VolumeData image = makeBytes(grid, [&](auto...) { return uniform(random, 0, 255); });
+    cpu::AreaMeter coarse = take(cpu::AreaMeter::create({.threads = 1, .tolerance = 1e9}));
+    cpu::AreaMeter fine = take(cpu::AreaMeter::create({.threads = 1, .tolerance = 1e-6}));
+    Held held(oneTriangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), image, byteRamp(), {0, 255});
+    const Mat4 pose = identity();
+    std::size_t apart = 0;
+    for (int round = 0; round < 5000; ++round) {
+        const Vec3 middle{uniform(random, 1, 6), uniform(random, 1, 6), uniform(random, 1, 6)};
+        std::array<Vec3, 3> corners{};
+        for (Vec3& corner : corners) {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                corner[axis] = middle[axis] + uniform(random, -0.5, 0.5);
+            }
+        }
+        held.mesh = take(cpu::Mesh::create(oneTriangle(corners[0], corners[1], corners[2]).view()));
+        const cpu::BatchItem item{&held.mesh, &held.volume, &held.function, std::span(&pose, 1)};
+        const cpu::Batch batch{std::span(&item, 1), {}, 0.5};
+        const AreaBounds first = take(coarse.measure(batch)).pairs.at(0).bounds;
+        const AreaBounds last = take(fine.measure(batch)).pairs.at(0).bounds;
+        EXPECT_LE(first.lo, last.hi) << round;
+        EXPECT_GE(first.hi, last.lo) << round;
+        apart += first.hi - first.lo > 1e-3 ? 1 : 0;
+    }
+    std::cout << apart << " were not known at once\n";
+    EXPECT_GT(apart, 1000U);
+}
+
 /// Neither threads nor what else is in the batch changes an answer.
 TEST(Area, DoesNotDependOnItsCompany) {
     std::mt19937_64 random(testSeed());
     const RandomScene scene = makeRandomScene(random, 40);
     const Held held(scene.mesh, scene.volume, scene.points, scene.domain, scene.tableSize);
-    const std::vector<PairArea> alone = areas(held, scene.poses, {.threads = 1}, scene.threshold);
-    const std::vector<PairArea> together = areas(held, scene.poses, {.threads = 3}, scene.threshold);
+    const double tolerance = 1e-3 * surfaceOf(scene.mesh) + 1e-9;
+    const std::vector<PairArea> alone =
+        areas(held, scene.poses, {.threads = 1, .tolerance = tolerance}, scene.threshold);
+    const std::vector<PairArea> together =
+        areas(held, scene.poses, {.threads = 3, .tolerance = tolerance}, scene.threshold);
     ASSERT_EQ(alone.size(), scene.poses.size());
     for (std::size_t i = 0; i < alone.size(); ++i) {
-        const PairArea one = area(held, {.threads = 1}, scene.threshold, scene.poses[i]);
+        const PairArea one = area(held, {.threads = 1, .tolerance = tolerance}, scene.threshold, scene.poses[i]);
         EXPECT_EQ(alone[i].pose, i);
         for (const PairArea& other : {together[i], one}) {
             EXPECT_EQ(alone[i].bounds.lo, other.bounds.lo) << i;
@@ -350,6 +385,27 @@ TEST(Area, OfLabelsIsCutBetweenVoxels) {
         EXPECT_LE(found[i].bounds.hi - found[i].bounds.lo, 1e-6) << i;
         EXPECT_EQ(found[i].end, AreaEnd::Closed) << i;
     }
+}
+
+/// Also where that of another is known at once.
+TEST(Area, OfEachLabelIsMeasuredToTheTolerance) {
+    Grid grid;
+    grid.size = {32, 32, 32};
+    const VolumeData ball = makeBytes(grid, [](auto x, auto y, auto z) {
+        return std::max(0.0, 250 - 12 * std::hypot(x - 15.5, y - 15.5, z - 15.5));
+    });
+    const LabelData labels =
+        take(makeLabels(makeBytes(grid, [](auto x, auto, auto) { return x < 3 ? 1 : (x < 16 ? 2 : 3); }).view()));
+    const Held held(makeFlat(0, 31, 0, 31, 14.3), ball, byteRamp(), {0, 255});
+    const std::vector<LabelArea> found =
+        labelAreas(held, &labels, std::vector<std::int32_t>{1, 2, 3}, {.threads = 1, .tolerance = 1e-3});
+    EXPECT_EQ(found[0].bounds.hi, 0);
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(found[i].end, AreaEnd::Closed);
+        EXPECT_LE(found[i].bounds.hi - found[i].bounds.lo, 1e-3);
+    }
+    EXPECT_GT(found[1].bounds.lo, 100);
+    EXPECT_NEAR(found[1].bounds.lo, found[2].bounds.lo, 2e-3) << "the halves of a disc";
 }
 
 /// A plate in the face between two labels is in either, as far as can be told, and in no other.

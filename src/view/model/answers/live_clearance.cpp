@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "view/model/answers/live_clearance.h"
 
+#include "core/base/infinity.h"
 #include "core/base/outward.h"
 
 #include <algorithm>
@@ -26,9 +27,13 @@ std::string written(double mm, int decimals) {
 
 } // namespace
 
-const PairClearance* LiveClearance::of(std::size_t mesh) const noexcept {
+const MeshClearance* LiveClearance::of(std::size_t mesh) const noexcept {
     const auto at = std::ranges::find_if(meshes, [mesh](const MeshClearance& one) { return one.mesh == mesh; });
-    return at == meshes.end() ? nullptr : &at->pair;
+    return at == meshes.end() ? nullptr : &*at;
+}
+
+bool LiveClearance::hasAreas() const noexcept {
+    return std::ranges::all_of(meshes, [](const MeshClearance& one) { return one.area.has_value(); });
 }
 
 std::string lowerText(double mm) {
@@ -41,13 +46,15 @@ std::string upperText(double mm) {
     return written(upperRounded(mm, std::pow(10, decimals)), decimals);
 }
 
-std::string clearanceText(const PairClearance& clearance) {
-    const auto& [lo, hi] = clearance.bounds;
+std::string clearanceText(const MeshClearance& clearance) {
+    const auto& [lo, hi] = clearance.pair.bounds;
     if (std::isinf(lo)) {
         return "nothing is opaque";
     }
     if (hi == 0) {
-        return "touches";
+        const AreaBounds area = clearance.area ? clearance.area->bounds : AreaBounds();
+        return area.hi > 0 && area.hi < kInfinity ? lowerText(area.lo) + " to " + upperText(area.hi) + " mm\u00b2 touch"
+                                                  : "touches";
     }
     return (std::isinf(hi) ? "at least " + lowerText(lo) : lowerText(lo) + " to " + upperText(hi)) + " mm away";
 }

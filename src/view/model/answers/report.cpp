@@ -12,18 +12,34 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// JSON has no infinity: it is a word there.
-Json millimetres(double value) {
+Json orInfinite(double value) {
     return std::isinf(value) ? Json("inf") : Json(value);
 }
 
 /// Null where it is of another question than the answer, or not of that mesh.
-Json clearanceJson(const StateReport& report, std::size_t mesh) {
+const MeshClearance* measuredOf(const StateReport& report, std::size_t mesh) {
     const LiveClearance* live = report.clearance;
-    const PairClearance* pair = live != nullptr && live->revision == report.answer->revision ? live->of(mesh) : nullptr;
-    if (pair == nullptr) {
+    return live != nullptr && live->revision == report.answer->revision ? live->of(mesh) : nullptr;
+}
+
+/// Null until it is measured.
+Json areaJson(const StateReport& report, std::size_t mesh) {
+    const MeshClearance* measured = measuredOf(report, mesh);
+    if (measured == nullptr || !measured->area) {
         return nullptr;
     }
-    Json json{{"lo", millimetres(pair->bounds.lo)}, {"hi", millimetres(pair->bounds.hi)}, {"end", toString(pair->end)}};
+    const AreaBounds& bounds = measured->area->bounds;
+    return {{"lo", bounds.lo}, {"hi", orInfinite(bounds.hi)}, {"end", toString(measured->area->end)}};
+}
+
+/// Null until it is measured.
+Json clearanceJson(const StateReport& report, std::size_t mesh) {
+    const MeshClearance* measured = measuredOf(report, mesh);
+    if (measured == nullptr) {
+        return nullptr;
+    }
+    const PairClearance* pair = &measured->pair;
+    Json json{{"lo", orInfinite(pair->bounds.lo)}, {"hi", orInfinite(pair->bounds.hi)}, {"end", toString(pair->end)}};
     if (pair->closest) {
         json["triangle"] = pair->closest->triangle;
         json["mesh"] = pair->closest->mesh;
@@ -55,6 +71,7 @@ void addMesh(Json& json, const StateReport& report, const MeshAnswer& answer) {
     json["triangles"] = answer.triangles.size();
     json["contacts"] = answer.contactsFound;
     json["clearance"] = clearanceJson(report, answer.instrument.mesh);
+    json["area"] = areaJson(report, answer.instrument.mesh);
     if (report.labels != nullptr) {
         json["labels"] = labelsJson(*report.labels, answer);
     }
