@@ -54,6 +54,29 @@ def half_space(dtype=np.uint8, shape=(8, 10, 12), value=200):
     return voxels
 
 
+#: Of a grid that is oblique and flipped.
+TURN = np.array([[0.96, -0.28, 0], [0.28, 0.96, 0], [0, 0, -1]])
+
+
+def oblique(spacing=(0.7, 1.1, 2.3), origin=(-20.0, 11.0, 5.0)):
+    """An affine: anisotropic, turned and flipped."""
+    affine = np.eye(4)
+    affine[:3, :3] = TURN * np.array(spacing)
+    affine[:3, 3] = origin
+    return affine
+
+
+def noise(dtype=np.int16, shape=(14, 18, 22), seed=2):
+    """Voxels from 0 to 199."""
+    return np.random.default_rng(seed).integers(0, 200, shape).astype(dtype)
+
+
+def answers(volume):
+    """Counts that tell one volume from another."""
+    scene = vx.Scene(volume, opacity=[(90, 0), (110, 1)])
+    return scene.detect(cube(5), random_poses(80, 21, reach=25)).count
+
+
 @pytest.fixture(scope="session")
 def head():
     return vx.read_volume("builtin:head:32")
