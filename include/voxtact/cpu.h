@@ -174,12 +174,15 @@ struct AreaDesc {
     std::uint32_t threads = 0;                ///< 0: one for each processor; at most kMostThreads
     double tolerance = kDefaultAreaTolerance; ///< mm^2, from 1e-9 on: how near to each other the bounds are brought
     double resolution = kDefaultResolution;   ///< of the touch, as in DetectorDesc
-    std::uint64_t mostSteps = 1U << 18U;      ///< a pair that takes more is left with the bounds it has; at least 1
+    /// A pair, or a label of one, that takes more is left with the bounds it has; at least 1. Each step takes half a
+    /// kilobyte of a thread's memory at most, while its pair is measured.
+    std::uint64_t mostSteps = 1U << 18U;
 };
 
 /// Measures how much of meshes is in what is opaque, in mm^2. What it answers depends on nothing but the pair and its
-/// desc: not on the threads, and not on what else is in a batch. Keeps its threads from call to call, and what it makes
-/// of the last volumes and transfer functions. Thread-safety: one call at a time.
+/// desc: not on the threads, not on what else is in a batch, and not on which other labels are asked for. Keeps its
+/// threads from call to call, and what it makes of the last volumes and transfer functions. Thread-safety: one call at
+/// a time.
 class AreaMeter {
   public:
     /// Starts its threads. Refuses numbers outside the ranges of AreaDesc.

@@ -83,7 +83,7 @@ static inline vxt_host_area_desc vxt_host_area_desc_init(void) {
     return desc;
 }
 
-/// Where a meter puts what it measures. Used again and again, it keeps its memory.
+/// Where a meter puts what it measures.
 typedef struct vxt_areas vxt_areas;
 /// An empty one.
 VXT_CHECKED vxt_result vxt_areas_create(vxt_areas** areas);

@@ -92,7 +92,7 @@ static inline vxt_host_clearance_desc vxt_host_clearance_desc_init(void) {
     return desc;
 }
 
-/// Where a meter puts what it measures. Used again and again, it keeps its memory.
+/// Where a meter puts what it measures.
 typedef struct vxt_clearances vxt_clearances;
 /// An empty one.
 VXT_CHECKED vxt_result vxt_clearances_create(vxt_clearances** clearances);

@@ -54,6 +54,43 @@ TEST_F(AreaTest, AddsBoundsToEachRow) {
     EXPECT_EQ(fine[0].at("count"), "1");
 }
 
+TEST_F(AreaTest, IsWrittenAsFinelyAsItIsAskedFor) {
+    // A triangle of 8e-8 mm^2 in voxels of a ten-thousandth of a millimetre.
+    writeText(path("tiny.obj"), "v 0.0001 0.0001 0.0003\nv 0.0005 0.0001 0.0003\nv 0.0001 0.0005 0.0003\nf 1 2 3\n");
+    writeText(path("tiny.nrrd"), "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 8 8 8\nencoding: raw\nspace: "
+                                 "left-posterior-superior\nspace origin: (0,0,0)\nspace directions: (0.0001,0,0) "
+                                 "(0,0.0001,0) (0,0,0.0001)\n\n" +
+                                     std::string(512, '\xc8'));
+    const Rows found = rowsOf(output({"detect", "--volume", path("tiny.nrrd"), "--mesh", path("tiny.obj"), "--area",
+                                      "--area-tolerance", "1e-9", "--format", "csv"}));
+    EXPECT_NEAR(loOf(found, 0), 8e-8, 2e-11);
+    EXPECT_NEAR(hiOf(found, 0), 8e-8, 2e-11);
+    EXPECT_LE(loOf(found, 0), 8.0001e-8);
+    EXPECT_GE(hiOf(found, 0), 7.9999e-8);
+}
+
+TEST_F(AreaTest, SaysSoBrieflyWhereManyLabelsAreNowhere) {
+    output({"make", "volume", "builtin:head:16", path("labels.nii.gz")});
+    std::string many = "300";
+    for (int label = 301; label < 350; ++label) {
+        many += "," + std::to_string(label);
+    }
+    const auto asked = [&](const std::string& labels) {
+        return Arguments{"detect", "--volume", "builtin:head:16",     "--mesh",       "builtin:scalpel:300",
+                         "--area", "--labels", path("labels.nii.gz"), "--label-area", path("some.csv"),
+                         "--to",   labels};
+    };
+    const Ran ran = run(asked(many));
+    EXPECT_EQ(ran.status, 0);
+    EXPECT_EQ(withoutProgress(ran.err),
+              "voxtact: note: --to: no voxel of the label map has the labels 300, 301, 302, 303, 304, 305, 306, 307, "
+              "308, 309 and 40 more; areas in them are 0\n");
+    for (int label = 350; label < 4500; ++label) {
+        many += "," + std::to_string(label);
+    }
+    EXPECT_THAT(refused(1, asked(many)), HasSubstr("4096"));
+}
+
 TEST_F(AreaTest, GoesWithWhatTheHostAnswers) {
     const Rows found = rows({"--area", "--clearance", "--margin", "3", "--count", "cpu"});
     EXPECT_EQ(found[0].at("clearance_hi"), "0");
@@ -138,6 +175,8 @@ TEST_F(AreaTest, IsTheSameInChunks) {
     EXPECT_EQ(output({"merge", path("run"), "--label-area", path("merged.csv")}), whole);
     EXPECT_EQ(readText(path("merged.csv")), readText(path("whole.csv")));
     EXPECT_FALSE(std::filesystem::exists("wanted"));
+    EXPECT_THAT(refused(2, {"merge", path("run"), "--label-area", "-"}),
+                HasSubstr("--label-area: - is standard output, where the rows of --output go"));
 }
 
 TEST_F(AreaTest, RefusesWhatDoesNotGoTogether) {

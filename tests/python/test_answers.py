@@ -127,6 +127,10 @@ def test_labels_that_no_voxel_has_are_warned_of(labelled, knife, recwarn):
     assert caught[0].filename == __file__
     with pytest.warns(UserWarning, match="^labels: no voxel of the label map has the label 254; areas in it are 0$") as caught:
         assert labelled.area(knife, pose, labels=[254]).hi.tolist() == [[0]]
+    with pytest.warns(UserWarning, match="labels 300, 301, 302, 303, 304, 305, 306, 307, 308, 309 and 2 more; areas in them are 0$"):
+        labelled.area(knife, pose, labels=range(300, 312))
+    with pytest.warns(UserWarning, match="label 254; areas") as caught:
+        labelled.area(knife, pose, labels=[254])
     assert caught[0].filename == __file__
 
 

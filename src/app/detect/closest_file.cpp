@@ -6,6 +6,7 @@
 #include "core/base/text.h"
 #include "io/text/table.h"
 
+#include <algorithm>
 #include <cmath>
 #include <ostream>
 
@@ -25,15 +26,14 @@ std::string joined(const Vec3& vector, char between) {
 }
 
 /// What was measured of one label.
-template <class Measured>
+template <class Bounds>
 void writeLabelBounds(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs, const Row& row,
-                      const Measured& measured) {
+                      std::int32_t label, const Bounds& bounds) {
     const PairJobs& jobs = options.jobs;
     const Job& job = jobs.jobs[row.job];
-    const auto bounds = roundedOutward(measured.bounds);
     out << row.pose << ',' << io::csvField(jobs.meshes[job.mesh]) << ',' << io::csvField(jobs.volumes[job.volume])
-        << ',' << measured.label << ',' << io::csvField(labelName(inputs, measured.label)) << ',' << number(bounds.lo)
-        << ',' << number(bounds.hi) << (jobs.fromFile ? "," + std::to_string(row.job) : "") << '\n';
+        << ',' << label << ',' << io::csvField(labelName(inputs, label)) << ',' << number(bounds.lo) << ','
+        << number(bounds.hi) << (jobs.fromFile ? "," + std::to_string(row.job) : "") << '\n';
 }
 
 std::int32_t labelOf(const DetectInputs& inputs, const Vec3& world) {
@@ -98,8 +98,9 @@ ClearanceBounds roundedOutward(const ClearanceBounds& bounds) {
     return {lowerRounded(bounds.lo, kParts), upperRounded(bounds.hi, kParts)};
 }
 
-AreaBounds roundedOutward(const AreaBounds& bounds) {
-    return {lowerRounded(bounds.lo, kParts), upperRounded(bounds.hi, kParts)};
+AreaBounds roundedOutward(const AreaBounds& bounds, double tolerance) {
+    const double parts = std::max(kParts, std::pow(10, std::ceil(2 - std::log10(tolerance))));
+    return {lowerRounded(bounds.lo, parts), upperRounded(bounds.hi, parts)};
 }
 
 void writeLabelClearanceHeader(std::ostream& out, const DetectOptions& options) {
@@ -108,7 +109,7 @@ void writeLabelClearanceHeader(std::ostream& out, const DetectOptions& options) 
 
 void writeLabelClearance(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs, const Row& row,
                          const LabelClearance& clearance) {
-    writeLabelBounds(out, options, inputs, row, clearance);
+    writeLabelBounds(out, options, inputs, row, clearance.label, roundedOutward(clearance.bounds));
 }
 
 void writeLabelAreaHeader(std::ostream& out, const DetectOptions& options) {
@@ -117,7 +118,7 @@ void writeLabelAreaHeader(std::ostream& out, const DetectOptions& options) {
 
 void writeLabelArea(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs, const Row& row,
                     const LabelArea& area) {
-    writeLabelBounds(out, options, inputs, row, area);
+    writeLabelBounds(out, options, inputs, row, area.label, roundedOutward(area.bounds, options.distance.areaGoal()));
 }
 
 bool isClosestEnding(const std::filesystem::path& path) {

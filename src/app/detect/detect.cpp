@@ -260,8 +260,8 @@ Outcome runDetect(const CLI::App& parser, DetectOptions options) {
         return interruptedOutcome(options, *output);
     }
     VOXTACT_TRY(output->finish(milliseconds));
-    for (const std::string& note :
-         {output->noteOfContacts(), output->clearanceEnds().note(), output->areaEnds().note()}) {
+    for (const std::string& note : {output->noteOfContacts(), output->clearanceEnds().note(), output->areaEnds().note(),
+                                    output->labelAreaEnds().note()}) {
         if (!note.empty()) {
             notes.push_back(note);
         }

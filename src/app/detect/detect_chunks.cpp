@@ -103,6 +103,7 @@ Outcome answerChunks(const DetectOptions& options, DetectInputs& inputs, RunFact
     PairAsker asker(options, inputs, engine);
     OpenBounds clearances; // of what this process does
     OpenBounds areas;
+    OpenBounds labelAreas;
     const DoChunk doChunk = [&](const ChunkRange& range, const ChunkFiles& files,
                                 const std::function<void(std::uint64_t)>& done) -> Result<void> {
         Result<DetectOutput> output = DetectOutput::createChunk(options, inputs, files);
@@ -113,6 +114,7 @@ Outcome answerChunks(const DetectOptions& options, DetectInputs& inputs, RunFact
         VOXTACT_TRY(asker.answer(pairs, *output, [&] { done(output->rows()); }));
         clearances.add(output->clearanceEnds());
         areas.add(output->areaEnds());
+        labelAreas.add(output->labelAreaEnds());
         return interrupted() ? Result<void>() : output->finish(0);
     };
     ChunkedRun run{"voxtact detect",
@@ -122,7 +124,7 @@ Outcome answerChunks(const DetectOptions& options, DetectInputs& inputs, RunFact
                    options.progress};
     Outcome outcome = doChunks(std::move(run), doChunk, paths, notes);
     asker.addTo(notes);
-    for (const OpenBounds& open : {clearances, areas}) {
+    for (const OpenBounds& open : {clearances, areas, labelAreas}) {
         if (!open.note().empty()) {
             notes.push_back(open.note());
         }

@@ -53,9 +53,10 @@ void writeLabelClearance(std::ostream& out, const DetectOptions& options, const 
 void writeLabelAreaHeader(std::ostream& out, const DetectOptions& options);
 void writeLabelArea(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs, const Row& row,
                     const LabelArea& area);
-/// Rounded to a millionth, down or up, so that they stay bounds.
+/// Rounded to a millionth of a mm, down or up, so that they stay bounds.
 [[nodiscard]] ClearanceBounds roundedOutward(const ClearanceBounds& bounds);
-[[nodiscard]] AreaBounds roundedOutward(const AreaBounds& bounds);
+/// Rounded in the same way to a millionth of a mm^2, or to a hundredth of a small tolerance.
+[[nodiscard]] AreaBounds roundedOutward(const AreaBounds& bounds, double tolerance);
 
 /// By the ending of --contacts.
 void writeContacts(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs,

@@ -202,10 +202,8 @@ Result<HostMeters> metersFor(const DetectOptions& options) {
         meters.clearance = std::move(*made);
     }
     if (distance.area) {
-        Result<cpu::AreaMeter> made =
-            cpu::AreaMeter::create({.threads = options.threads,
-                                    .tolerance = distance.areaTolerance.value_or(kDefaultAreaTolerance),
-                                    .resolution = resolution});
+        Result<cpu::AreaMeter> made = cpu::AreaMeter::create(
+            {.threads = options.threads, .tolerance = distance.areaGoal(), .resolution = resolution});
         VOXTACT_TRY(made);
         meters.area = std::move(*made);
     }

@@ -16,9 +16,33 @@ namespace voxtact::app {
 
 namespace {
 
+/// That no voxel has some labels, which is no error.
+void noteAbsent(const DistanceOptions& options, const std::vector<LabelWord>& absent) {
+    constexpr std::size_t kMostNamed = 10;
+    if (absent.empty()) {
+        return;
+    }
+    const bool several = absent.size() > 1;
+    std::string names;
+    for (std::size_t i = 0; i < std::min(absent.size(), kMostNamed); ++i) {
+        names += (i == 0 ? "" : ", ") + absent[i];
+    }
+    if (absent.size() > kMostNamed) {
+        names += " and " + std::to_string(absent.size() - kMostNamed) + " more";
+    }
+    const std::string them = several ? "them" : "it";
+    const std::string clearances = "clearances to " + them + " are infinite";
+    const std::string areas = "areas in " + them + " are 0";
+    printNote("--to: no voxel of the label map has the label" + std::string(several ? "s " : " ") + names + "; " +
+              (options.labels.empty()       ? areas
+               : options.labelAreas.empty() ? clearances
+                                            : clearances + ", and " + areas));
+}
+
 /// The labels that are measured: a number need not be one that voxels have, a name must be.
 Result<std::vector<std::int32_t>> measuredLabels(const DistanceOptions& options, const NamedLabels& labels) {
     std::vector<std::int32_t> measured;
+    std::vector<LabelWord> absent;
     if (options.to.empty()) {
         measured = labels.labels.values;
         std::erase(measured, 0);
@@ -27,8 +51,7 @@ Result<std::vector<std::int32_t>> measuredLabels(const DistanceOptions& options,
         const std::optional<std::int32_t> number = labelNumber(word);
         Result<std::vector<std::int32_t>> meant = labelsOf(labels, word, "--to");
         if (number && !meant.ok()) {
-            printNote("--to: no voxel of the label map has the label " + word +
-                      (options.labels.empty() ? "; areas in it are 0" : "; clearances to it are infinite"));
+            absent.push_back(word);
             meant = std::vector<std::int32_t>{*number};
         }
         VOXTACT_TRY(meant);
@@ -36,6 +59,10 @@ Result<std::vector<std::int32_t>> measuredLabels(const DistanceOptions& options,
             return std::ranges::find(measured, label) == measured.end();
         });
     }
+    if (options.byLabel()) {
+        VOXTACT_TRY(checkMeasuredLabels(measured));
+    }
+    noteAbsent(options, absent);
     return measured;
 }
 

@@ -69,6 +69,7 @@ struct DetectOutput::State {
     std::vector<KeptClosest> closest{};
     std::array<std::uint64_t, kClearanceEnds> ends{}; ///< rows by why their bounds are no nearer to each other
     std::array<std::uint64_t, kAreaEnds> areaEnds{};
+    std::array<std::uint64_t, kAreaEnds> labelAreaEnds{};
 };
 
 void DetectOutput::State::keepMeasured(std::span<const Row> part) {
@@ -235,6 +236,7 @@ void DetectOutput::addLabelClearance(const Row& row, const LabelClearance& clear
 
 void DetectOutput::addLabelArea(const Row& row, const LabelArea& area) {
     if (state_->labelAreaFile) {
+        ++state_->labelAreaEnds[static_cast<std::size_t>(area.end)];
         writeLabelArea(state_->labelAreaFile->stream(), state_->options, state_->inputs, row, area);
     }
 }
@@ -331,6 +333,12 @@ OpenBounds DetectOutput::clearanceEnds() const {
 OpenBounds DetectOutput::areaEnds() const {
     const auto of = [&](AreaEnd end) { return state_->areaEnds[static_cast<std::size_t>(end)]; };
     return {"areas", state_->rows, of(AreaEnd::Rounding), of(AreaEnd::Budget)};
+}
+
+OpenBounds DetectOutput::labelAreaEnds() const {
+    const auto of = [&](AreaEnd end) { return state_->labelAreaEnds[static_cast<std::size_t>(end)]; };
+    return {"areas in labels", of(AreaEnd::Closed) + of(AreaEnd::Rounding) + of(AreaEnd::Budget), of(AreaEnd::Rounding),
+            of(AreaEnd::Budget)};
 }
 
 void OpenBounds::add(const OpenBounds& more) {

@@ -61,6 +61,7 @@ class DetectOutput {
     [[nodiscard]] std::string noteOfContacts() const;
     [[nodiscard]] OpenBounds clearanceEnds() const;
     [[nodiscard]] OpenBounds areaEnds() const;
+    [[nodiscard]] OpenBounds labelAreaEnds() const;
 
     struct State;
 

@@ -50,6 +50,8 @@ struct DistanceOptions {
         return asked;
     }
     [[nodiscard]] bool any() const { return clearance || area || isMargin(); }
+    /// With `area`: mm^2.
+    [[nodiscard]] double areaGoal() const { return areaTolerance.value_or(kDefaultAreaTolerance); }
     /// Whether label by label is measured.
     [[nodiscard]] bool byLabel() const { return !labels.empty() || !labelAreas.empty(); }
     /// Whether it is one question, such as a device answers.

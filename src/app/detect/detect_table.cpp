@@ -29,12 +29,12 @@ void DetectColumns::addClearance() {
                         }});
 }
 
-void DetectColumns::addArea() {
-    columns_.push_back({"area_lo", [](const Row& row) {
-                            return row.area ? io::Cell(roundedOutward(row.area->bounds).lo) : io::Cell();
+void DetectColumns::addArea(double tolerance) {
+    columns_.push_back({"area_lo", [tolerance](const Row& row) {
+                            return row.area ? io::Cell(roundedOutward(row.area->bounds, tolerance).lo) : io::Cell();
                         }});
-    columns_.push_back({"area_hi", [](const Row& row) {
-                            return row.area ? io::Cell(roundedOutward(row.area->bounds).hi) : io::Cell();
+    columns_.push_back({"area_hi", [tolerance](const Row& row) {
+                            return row.area ? io::Cell(roundedOutward(row.area->bounds, tolerance).hi) : io::Cell();
                         }});
 }
 
@@ -54,7 +54,7 @@ DetectColumns::DetectColumns(const DetectOptions& options, const DetectInputs& i
         columns_.push_back({extra.name, [cell = std::move(extra.cell)](const Row& row) { return cell(row.extra); }});
     }
     if (options.distance.area) {
-        addArea();
+        addArea(options.distance.areaGoal());
     }
     if (options.distance.clearance) {
         addClearance();

@@ -23,7 +23,7 @@ class DetectColumns {
         std::function<io::Cell(const Row&)> cell;
     };
     void addClearance();
-    void addArea();
+    void addArea(double tolerance);
 
     std::vector<Column> columns_;
     std::vector<std::string> names_;

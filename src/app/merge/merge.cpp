@@ -56,7 +56,7 @@ std::vector<NamedPath> filesOf(const std::string& option, const std::filesystem:
 /// The paths that were given, for outputs that the run has.
 Result<MergePaths> pathsOf(const MergeOptions& options, const RunFolder& folder) {
     MergePaths paths{{"--output", options.output}};
-    std::vector<NamedPath> files{{"--output", options.output}};
+    std::vector<NamedPath> files{{"--output", options.output.empty() ? "-" : options.output}};
     for (const auto& [option, path] : options.files()) {
         if (path.empty()) {
             continue;

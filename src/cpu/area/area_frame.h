@@ -66,9 +66,13 @@ struct AreaSlack {
 
     /// Of a point, voxels along each axis.
     glm::dvec3 place;
-    /// By how much a part may reach out of its cell: many times the rounding of a coordinate.
+    /// By how much a part may reach out of its cell where it is cut: many times the rounding of a coordinate.
     [[nodiscard]] double cut(int axis) const noexcept { return 2 * place[axis]; }
-    /// Of a point of a part: from where it truly is to its cell, along all axes together.
+    /// What is cut this far from a plane is truly on that side of it: `cut`, and `place`, and as much again.
+    [[nodiscard]] double doubt(int axis) const noexcept { return 2 * cut(axis); }
+    /// Between the value of a point and that of its cell's interpolant where it is computed, along all axes together:
+    /// from where it truly is to there (`place`), from there to the cell (`cut`), and back by another cell's
+    /// interpolant; and one for roundings.
     [[nodiscard]] double reach() const noexcept { return 6 * (place.x + place.y + place.z); }
 };
 

@@ -42,8 +42,8 @@ AreaGoal goalOf(const AreaDesc& desc, CancelFlag cancel) {
     return {desc.tolerance, desc.mostSteps, cancel};
 }
 
-/// Whether the mesh may touch; it is then in place. What certainly does not has no area.
-bool mayTouch(const PairAt& at, ThreadMemory& memory) {
+/// Whether the mesh may touch; it is then in `memory`. What certainly does not touch has no area.
+bool placeIfItMayTouch(const PairAt& at, ThreadMemory& memory) {
     std::optional<TouchPoint> point;
     const CertifiedTally touch = at.touch(point);
     if (touch.certain == 0 && !touch.undecided) {
@@ -53,10 +53,13 @@ bool mayTouch(const PairAt& at, ThreadMemory& memory) {
     return true;
 }
 
-/// Of the labels that are asked for, in the order of their first mention, and the slot of each of a map's labels.
+/// The labels that are asked for, of one map.
 struct Slots {
+    static constexpr std::size_t kNowhere = kMostMeasuredLabels; ///< no voxel has the label
+    static_assert(kMostMeasuredLabels < AreaLabels::kNoSlot);
+
     std::vector<std::uint16_t> ofValue; ///< by LabelData::values
-    std::vector<std::size_t> ofAsked; ///< by the labels that are asked for; as many as there are slots: not in the map
+    std::vector<std::size_t> ofAsked;   ///< by the labels that are asked for, or kNowhere
     std::size_t count = 0;
 };
 
@@ -66,7 +69,7 @@ Slots slotsOf(const LabelData& map, std::span<const std::int32_t> labels) {
     for (const std::int32_t label : labels) {
         const auto found = std::ranges::lower_bound(map.values, label);
         if (found == map.values.end() || *found != label) {
-            slots.ofAsked.push_back(kMostMeasuredLabels);
+            slots.ofAsked.push_back(Slots::kNowhere);
             continue;
         }
         std::uint16_t& slot = slots.ofValue[static_cast<std::size_t>(found - map.values.begin())];
@@ -78,6 +81,9 @@ Slots slotsOf(const LabelData& map, std::span<const std::int32_t> labels) {
     return slots;
 }
 
+/// Of a batch's maps, each of which is looked at once.
+using SlotsOfMaps = std::map<const LabelData*, Slots>;
+
 /// What each pair has for each label, before it is told label by label.
 struct PairAreas {
     std::uint32_t pair = 0;
@@ -87,14 +93,14 @@ struct PairAreas {
 };
 
 LabelAreaAnswer byLabel(const Batch& batch, std::span<const std::int32_t> labels, const std::vector<PairAreas>& pairs,
-                        const std::vector<Slots>& slots) {
+                        const SlotsOfMaps& slots) {
     LabelAreaAnswer answer;
     answer.labels = numberedPairs<LabelArea>(batch, labels.size());
     for (std::size_t i = 0; i < answer.labels.size(); ++i) {
         LabelArea& area = answer.labels[i];
         area.label = labels[i % labels.size()];
         const std::vector<AreaFound>& found = pairs[area.pair].found;
-        const std::size_t slot = slots[area.item].ofAsked[i % labels.size()];
+        const std::size_t slot = slots.at(batch.items[area.item].labels).ofAsked[i % labels.size()];
         if (slot < found.size()) {
             area.bounds = found[slot].bounds;
             area.end = found[slot].end;
@@ -103,17 +109,14 @@ LabelAreaAnswer byLabel(const Batch& batch, std::span<const std::int32_t> labels
     return answer;
 }
 
-/// Of each item. Each map is checked once.
-Result<std::vector<Slots>> slotsOf(const Batch& batch, std::span<const std::int32_t> labels) {
-    std::vector<Slots> slots;
-    std::map<const LabelData*, std::size_t> firstWith;
-    for (std::size_t i = 0; i < batch.items.size(); ++i) {
-        const LabelData& map = *batch.items[i].labels;
-        const auto [known, isNew] = firstWith.try_emplace(&map, i);
-        if (isNew) {
-            VOXTACT_TRY(checkLabels(map));
+/// Refuses what checkLabels() refuses.
+Result<SlotsOfMaps> slotsOf(const Batch& batch, std::span<const std::int32_t> labels) {
+    SlotsOfMaps slots;
+    for (const BatchItem& item : batch.items) {
+        if (!slots.contains(item.labels)) {
+            VOXTACT_TRY(checkLabels(*item.labels));
+            slots.emplace(item.labels, slotsOf(*item.labels, labels));
         }
-        slots.push_back(isNew ? slotsOf(map, labels) : slots[known->second]);
     }
     return slots;
 }
@@ -144,7 +147,7 @@ Result<AreaAnswer> AreaMeter::measure(const Batch& batch) {
         const AreaGoal goal = goalOf(impl_->desc, &cancel);
         VOXTACT_TRY(workers.forEachPair(batch, cancel, workers.partsOf(batch, impl_->desc.resolution), answer.pairs,
                                         [&](const PairAt& at, PairArea& pair, ThreadMemory& memory) {
-                                            if (mayTouch(at, memory)) {
+                                            if (placeIfItMayTouch(at, memory)) {
                                                 const AreaFound found =
                                                     measureArea(at.volume(), at.part, memory.mesh, goal);
                                                 pair.bounds = found.bounds;
@@ -163,15 +166,15 @@ Result<LabelAreaAnswer> AreaMeter::measureLabels(const Batch& batch, std::span<c
         VOXTACT_TRY(checkMeasuredLabels(batch, labels));
         const Cancellation cancel(batch.cancel);
         VOXTACT_TRY(checkNotCancelled(cancel));
-        const Result<std::vector<Slots>> slots = slotsOf(batch, labels);
+        const Result<SlotsOfMaps> slots = slotsOf(batch, labels);
         VOXTACT_TRY(slots);
         std::vector<PairAreas> pairs = numberedPairs<PairAreas>(batch);
         Workers& workers = impl_->workers;
         const AreaGoal goal = goalOf(impl_->desc, &cancel);
         VOXTACT_TRY(workers.forEachPair(batch, cancel, workers.partsOf(batch, impl_->desc.resolution), pairs,
                                         [&](const PairAt& at, PairAreas& pair, ThreadMemory& memory) {
-                                            const Slots& own = (*slots)[pair.item];
-                                            if (own.count > 0 && mayTouch(at, memory)) {
+                                            const Slots& own = slots->at(at.item.labels);
+                                            if (own.count > 0 && placeIfItMayTouch(at, memory)) {
                                                 pair.found =
                                                     measureAreas(at.volume(), at.part, memory.mesh,
                                                                  {at.item.labels, own.ofValue}, own.count, goal);

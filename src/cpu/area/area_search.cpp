@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/area/area_search.h"
 #include "core/base/infinity.h"
+#include "cpu/area/area_sum.h"
 #include "cpu/area/area_walk.h"
+#include "cpu/area/open_parts.h"
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -12,104 +12,12 @@ namespace voxtact::cpu {
 
 namespace {
 
-/// Of a sum of parts that are each right to some roundings (area_frame.h, uv_polygon.h).
-constexpr double kSumError = 0x1p-40;
-
-/// Neumaier's sum: what is rounded off is kept ("Rundungsfehleranalyse einiger Verfahren zur Summation endlicher
-/// Summen", 1974).
-class Sum {
-  public:
-    void add(double term) noexcept {
-        const double next = sum_ + term;
-        rest_ += std::abs(sum_) >= std::abs(term) ? (sum_ - next) + term : (term - next) + sum_;
-        sum_ = next;
-    }
-    [[nodiscard]] double value() const noexcept { return sum_ + rest_; }
-
-  private:
-    double sum_ = 0;
-    double rest_ = 0;
-};
-
-/// Parts whose bounds are apart, the farthest first; where several are as far, the one that came first.
-class OpenParts {
-  public:
-    struct Open {
-        CellPart part;
-        PartArea area;
-    };
-
-    /// Keeps no more than so many: what is nearer together than all of these is never divided.
-    explicit OpenParts(std::uint64_t most) : most_(std::max<std::uint64_t>(most, 1)) {}
-
-    void add(const CellPart& part, const PartArea& area) {
-        const auto place = static_cast<std::uint32_t>(free_.empty() ? parts_.size() : free_.back());
-        if (free_.empty()) {
-            parts_.push_back({part, area});
-        } else {
-            free_.pop_back();
-            parts_[place] = {part, area};
-        }
-        order_.push_back({area.gap(), numbered_++, place});
-        if (isHeap_) {
-            std::ranges::push_heap(order_, isNearer);
-        } else if (order_.size() / 2 > most_) {
-            keepFarthest();
-        }
-    }
-    [[nodiscard]] bool empty() const noexcept { return order_.empty(); }
-    /// Whether some were not kept.
-    [[nodiscard]] bool leftSome() const noexcept { return left_; }
-    [[nodiscard]] Open takeFarthest() {
-        if (!isHeap_) {
-            std::ranges::make_heap(order_, isNearer);
-            isHeap_ = true;
-        }
-        std::ranges::pop_heap(order_, isNearer);
-        const std::uint32_t place = order_.back().place;
-        order_.pop_back();
-        free_.push_back(place);
-        return parts_[place];
-    }
-
-  private:
-    struct Ordered {
-        double gap = 0;
-        std::uint64_t number = 0;
-        std::uint32_t place = 0; ///< in `parts_`
-    };
-    static bool isNearer(const Ordered& a, const Ordered& b) noexcept {
-        return a.gap != b.gap ? a.gap < b.gap : a.number > b.number;
-    }
-    void keepFarthest() {
-        const auto end = order_.begin() + static_cast<std::ptrdiff_t>(most_);
-        std::ranges::nth_element(order_, end, [](const Ordered& a, const Ordered& b) { return isNearer(b, a); });
-        std::for_each(end, order_.end(), [this](const Ordered& one) { free_.push_back(one.place); });
-        order_.erase(end, order_.end());
-        left_ = true;
-    }
-
-    std::vector<Ordered> order_;
-    std::vector<Open> parts_;
-    std::vector<std::uint32_t> free_; ///< places of `parts_`
-    std::uint64_t most_;
-    std::uint64_t numbered_ = 0;
-    bool isHeap_ = false;
-    bool left_ = false;
-};
-
-/// What the parts of one slot have together.
+/// What is measured together, and what of it may be divided.
 struct Slot {
-    Sum lo;
-    Sum hi;
+    explicit Slot(std::uint64_t mostSteps) : open(mostSteps) {}
 
-    [[nodiscard]] AreaBounds bounds() const {
-        return {std::max(lo.value() * (1 - kSumError), 0.0), std::max(hi.value() * (1 + kSumError), 0.0)};
-    }
-    [[nodiscard]] bool within(double tolerance) const {
-        const AreaBounds now = bounds();
-        return now.hi - now.lo <= tolerance;
-    }
+    AreaSum sum;
+    OpenParts open;
 };
 
 class AreaSearch {
@@ -118,7 +26,7 @@ class AreaSearch {
     AreaSearch(const VolumeImpl& volume, const OpaquePart& part, MeshPlace& mesh, const AreaLabels* labels,
                std::size_t slots, const AreaGoal& goal)
         : part_(part), mesh_(mesh), goal_(goal), slack_(part.space, mesh.error()), measure_(volume, part, slack_),
-          walk_(volume, part, slack_, measure_, labels != nullptr), open_(goal.mostSteps), slots_(slots) {
+          walk_(volume, part, slack_, measure_, labels != nullptr), slots_(slots, Slot(goal.mostSteps)) {
         if (labels != nullptr) {
             labels_.emplace(*labels, part.space, slack_);
         }
@@ -126,29 +34,26 @@ class AreaSearch {
 
     std::vector<AreaFound> run() {
         lookAtAll();
-        std::uint64_t steps = 0;
-        std::size_t apart = static_cast<std::size_t>(
-            std::ranges::count_if(slots_, [this](const Slot& slot) { return !slot.within(goal_.tolerance); }));
-        while (apart > 0 && !open_.empty() && steps < goal_.mostSteps && goesOn()) {
-            const OpenParts::Open farthest = open_.takeFarthest();
-            const Slot& slot = slots_[farthest.part.slot];
-            if (!slot.within(goal_.tolerance)) {
-                divide(farthest);
-                apart -= slot.within(goal_.tolerance) ? 1 : 0;
-                ++steps;
-            }
-        }
-        const bool ended = steps == goal_.mostSteps || open_.leftSome();
         std::vector<AreaFound> found;
-        for (const Slot& slot : slots_) {
-            const AreaEnd apartFor = ended ? AreaEnd::Budget : AreaEnd::Rounding;
-            found.push_back({slot.bounds(), slot.within(goal_.tolerance) ? AreaEnd::Closed : apartFor});
+        for (Slot& slot : slots_) {
+            found.push_back(finish(slot));
         }
         return found;
     }
 
   private:
     [[nodiscard]] bool goesOn() const { return !isCancelled(goal_.cancel); }
+
+    /// Each slot has its own steps: what is found of one does not depend on what else is asked for.
+    AreaFound finish(Slot& slot) {
+        std::uint64_t steps = 0;
+        while (!slot.sum.within(goal_.tolerance) && !slot.open.empty() && steps < goal_.mostSteps && goesOn()) {
+            divide(slot.open.takeBest());
+            ++steps;
+        }
+        const AreaEnd apart = slot.open.empty() ? AreaEnd::Rounding : AreaEnd::Budget;
+        return {slot.sum.bounds(), slot.sum.within(goal_.tolerance) ? AreaEnd::Closed : apart};
+    }
 
     void lookAtAll() {
         const ClusterTree& tree = mesh_.mesh().tree;
@@ -181,16 +86,11 @@ class AreaSearch {
             walk_.triangle(
                 frame, number, [this] { return goesOn(); },
                 [&](const CellPart& part) { isOpen = addByLabel(frame, part) || isOpen; },
-                [&](const UvPolygon& polygon) { count(0, PartMeasure::whole(frame, polygon)); });
+                [&](const UvPolygon& polygon) { slots_[0].sum.add(PartMeasure::whole(frame, polygon)); });
             if (isOpen) {
                 frames_.push_back(frame);
             }
         }
-    }
-
-    void count(std::size_t slot, const PartArea& area) {
-        slots_[slot].lo.add(area.lo);
-        slots_[slot].hi.add(area.hi);
     }
 
     /// Whether some of it may be divided.
@@ -206,12 +106,12 @@ class AreaSearch {
     /// Whether it may be divided.
     bool add(const AreaFrame& frame, const CellPart& part) {
         const PartArea area = measure_.area(frame, part);
-        count(part.slot, area);
-        const bool isOpen = !area.final && area.gap() > 0;
-        if (isOpen) {
-            open_.add(part, area);
+        Slot& slot = slots_[part.slot];
+        slot.sum.add(area);
+        if (area.gain > 0) {
+            slot.open.add(part, area);
         }
-        return isOpen;
+        return area.gain > 0;
     }
 
     void divide(const OpenParts::Open& open) {
@@ -226,7 +126,7 @@ class AreaSearch {
             below.polygon.empty() || above.polygon.empty()) {
             return; // as it is
         }
-        count(open.part.slot, {-open.area.lo, -open.area.hi});
+        slots_[open.part.slot].sum.takeBack(open.area);
         add(frame, below);
         add(frame, above);
     }
@@ -237,8 +137,7 @@ class AreaSearch {
     AreaSlack slack_;
     PartMeasure measure_;
     AreaWalk walk_;
-    OpenParts open_;
-    std::vector<AreaFrame> frames_; ///< of the triangles that have parts in `open_`
+    std::vector<AreaFrame> frames_; ///< of the triangles that have parts that may be divided
     std::vector<Slot> slots_;
     std::optional<LabelCut> labels_;
 };

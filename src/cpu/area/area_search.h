@@ -29,7 +29,8 @@ struct AreaFound {
 [[nodiscard]] AreaFound measureArea(const VolumeImpl& volume, const OpaquePart& part, MeshPlace& mesh,
                                     const AreaGoal& goal);
 
-/// The same of what is opaque and in the closed boxes around the voxels of some labels: as many as there are slots.
+/// The same of what is opaque and where labelAt() says some labels: as many as there are slots, each with steps of its
+/// own.
 [[nodiscard]] std::vector<AreaFound> measureAreas(const VolumeImpl& volume, const OpaquePart& part, MeshPlace& mesh,
                                                   const AreaLabels& labels, std::size_t slots, const AreaGoal& goal);
 

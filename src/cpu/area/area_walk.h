@@ -34,8 +34,12 @@ class AreaWalk {
     template <class GoesOn, class Part, class Opaque>
     void triangle(const AreaFrame& frame, std::uint32_t number, const GoesOn& goesOn, const Part& part,
                   const Opaque& opaque) const {
-        Walk<GoesOn, Part, Opaque>{*this, frame, number, goesOn, part, opaque}.cutAtVolume(UvPolygon::whole(), 0,
-                                                                                           false);
+        const Walk<GoesOn, Part, Opaque> walk{*this, frame, number, goesOn, part, opaque};
+        if (isInside(AreaBox(frame, UvPolygon::whole()))) {
+            walk.divide(UvPolygon::whole(), everywhere(), false);
+        } else {
+            walk.cutAtVolume(UvPolygon::whole(), 0, false);
+        }
     }
 
   private:
@@ -57,21 +61,16 @@ class AreaWalk {
                 return;
             }
             const double reach = walk.part_.space.reach[axis];
-            const double doubt = 2 * walk.slack_.cut(axis);
+            const double doubt = walk.slack_.doubt(axis);
             // Outside, in doubt, inside, in doubt, outside.
-            UvPolygon rest = polygon;
-            UvPolygon below;
-            UvPolygon above;
-            cut(rest, axis, -reach - doubt, below, above);
-            rest = above;
-            cut(rest, axis, -reach + doubt, below, above);
-            cutAtVolume(below, axis + 1, true);
-            rest = above;
-            cut(rest, axis, reach - doubt, below, above);
-            cutAtVolume(below, axis + 1, atEdge);
-            rest = above;
-            cut(rest, axis, reach + doubt, below, above);
-            cutAtVolume(below, axis + 1, true);
+            const Halves first = cut(polygon, axis, -reach - doubt);
+            const Halves second = cut(first.above, axis, -reach + doubt);
+            const Halves third = cut(second.above, axis, reach - doubt);
+            const Halves fourth = cut(third.above, axis, reach + doubt);
+            const bool unsure = atEdge || !(first.sure && second.sure && third.sure && fourth.sure);
+            cutAtVolume(second.below, axis + 1, true);
+            cutAtVolume(third.below, axis + 1, unsure);
+            cutAtVolume(fourth.below, axis + 1, true);
         }
 
         /// `cells` are around the polygon.
@@ -94,23 +93,30 @@ class AreaWalk {
                 return;
             }
             const Cut at = cutOf(left);
-            UvPolygon below;
-            UvPolygon above;
-            cut(polygon, at.axis, at.cell - walk.part_.space.centre[at.axis], below, above);
+            const Halves parts = cut(polygon, at.axis, at.cell - walk.part_.space.centre[at.axis]);
             CellBox half = left;
             half.hi[static_cast<std::size_t>(at.axis)] = at.cell - 1;
-            divide(below, half, atEdge);
+            divide(parts.below, half, atEdge || !parts.sure);
             half = left;
             half.lo[static_cast<std::size_t>(at.axis)] = at.cell;
-            divide(above, half, atEdge);
+            divide(parts.above, half, atEdge || !parts.sure);
         }
 
-        /// There is always room: a part of a triangle in a box has 9 corners at most.
-        void cut(const UvPolygon& polygon, int axis, double at, UvPolygon& below, UvPolygon& above) const {
-            if (!split(polygon, heightsAlong(frame, polygon, axis, at), walk.slack_.cut(axis), below, above)) {
-                below.count = std::min(below.count, std::uint32_t{UvPolygon::kMost});
-                above.count = std::min(above.count, std::uint32_t{UvPolygon::kMost});
+        /// Not sure: there was no room for corners, which rounding alone can do, and either half may be all of it.
+        struct Halves {
+            UvPolygon below;
+            UvPolygon above;
+            bool sure = true;
+        };
+
+        Halves cut(const UvPolygon& polygon, int axis, double at) const {
+            Halves halves;
+            halves.sure = split(polygon, heightsAlong(frame, polygon, axis, at), walk.slack_.cut(axis), halves.below,
+                                halves.above);
+            if (!halves.sure) {
+                halves.below = halves.above = polygon;
             }
+            return halves;
         }
     };
 
@@ -136,6 +142,16 @@ class AreaWalk {
             }
         }
         return {static_cast<int>(axis), middle};
+    }
+
+    /// Of the volume, for certain.
+    [[nodiscard]] bool isInside(const AreaBox& box) const {
+        bool inside = true;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double most = part_.space.reach[axis] - slack_.doubt(axis);
+            inside = inside && box.lo[axis] >= -most && box.hi[axis] <= most;
+        }
+        return inside;
     }
 
     [[nodiscard]] CellBox everywhere() const {

@@ -58,6 +58,15 @@ struct PartValues {
     dvec3 half{}; ///< half of these, in the cell's coordinates
 };
 
+/// How far the interpolant of a cell may be from its middle.
+double spreadOf(const Trilinear& terms) {
+    double sum = 0;
+    for (std::size_t i = 1; i < terms.size(); ++i) {
+        sum += std::abs(terms[i]);
+    }
+    return sum;
+}
+
 /// The quadratic terms of a point that is a mean of corners are the mean of those that all pairs of corners have, by
 /// the weights of both: so they are between the least and the greatest of these.
 ValueRange quadraticRange(const Trilinear& terms, std::span<const dvec3> corners) {
@@ -140,7 +149,7 @@ PartMeasure::PartMeasure(const VolumeImpl& volume, const OpaquePart& part, const
 PartArea PartMeasure::whole(const AreaFrame& frame, const UvPolygon& polygon) noexcept {
     const double area = polygon.area();
     const double error = polygon.areaError();
-    return {std::max(area - error, 0.0) * frame.lo, (area + error) * frame.hi, true};
+    return {std::max(area - error, 0.0) * frame.lo, (area + error) * frame.hi};
 }
 
 bool PartMeasure::allOpaque(const NodePlace& brick) const {
@@ -165,35 +174,35 @@ PartArea PartMeasure::area(const AreaFrame& frame, const CellPart& part) const {
     PartArea out = whole(frame, part.polygon);
     const PartCell cell = part_.cell(volume_, part.padded);
     const double error = cell.error + errorAround(part.padded);
-    double reach = error;
-    for (std::size_t i = 1; i < cell.terms.size(); ++i) {
-        reach += std::abs(cell.terms[i]);
-    }
-    if (!part.atEdge && part_.intervals.contain(cell.terms[0] - reach, cell.terms[0] + reach)) {
-        return out; // as in most cells that are deep in what is opaque
-    }
-    const PartValues values = valuesOn(frame, part.polygon, cell, error);
-    const OpaqueIntervals::Some some = part_.intervals.between(values.lo, values.hi);
-    if (some.known && some.outer.empty()) {
-        return {0, 0, true};
-    }
-    if (!part.atEdge && part_.intervals.contain(values.lo, values.hi)) {
+    if (part_.intervals.contain(cell.terms[0] - spreadOf(cell.terms) - error,
+                                cell.terms[0] + spreadOf(cell.terms) + error)) {
+        out.lo = part.atEdge ? 0 : out.lo; // as in most cells that are deep in what is opaque
         return out;
     }
-    out.lo = 0;
+    const PartValues values = valuesOn(frame, part.polygon, cell, error);
+    if (part_.intervals.contain(values.lo, values.hi)) {
+        out.lo = part.atEdge ? 0 : out.lo; // dividing it tells no more
+        return out;
+    }
+    const OpaqueIntervals::Some some = part_.intervals.between(values.lo, values.hi);
+    if (some.known && some.outer.empty()) {
+        return {};
+    }
     const bool small = values.half[largest(values.half)] < kLeastHalf;
     if (!some.known || some.outer.size() > kMostIntervals) {
-        out.final = small || !some.known;
+        out.lo = 0;
+        out.gain = small || !some.known ? 0 : out.hi;
         out.axis = largest(values.half);
         return out;
     }
-    // What rounding leaves open, dividing it does not close.
-    out.final = small || !(values.off > 4 * error);
-    out.axis = largest(values.bent);
     const Share share = opaqueShare(part.polygon, values, some);
     const double doubt = part.polygon.areaError() * static_cast<double>(2 * some.outer.size() + 1);
-    out.lo = part.atEdge ? 0 : std::max(share.certain - doubt, 0.0) * frame.lo;
+    const double certain = std::max(share.certain - doubt, 0.0) * frame.lo;
+    out.lo = part.atEdge ? 0 : certain;
     out.hi = std::min((share.possible + doubt) * frame.hi, out.hi);
+    // What rounding leaves open, dividing it does not close.
+    out.gain = small || !(values.off > 4 * error) ? 0 : std::max(out.hi - certain, 0.0);
+    out.axis = largest(values.bent);
     return out;
 }
 

@@ -21,10 +21,8 @@ struct CellPart {
 struct PartArea {
     double lo = 0;
     double hi = 0;
-    bool final = false; ///< dividing it would not bring them nearer to each other
-    int axis = 0;       ///< else: it is best divided across that axis
-
-    [[nodiscard]] double gap() const noexcept { return hi - lo; }
+    double gain = 0; ///< mm^2: so much nearer dividing it may bring them; 0: not at all
+    int axis = 0;    ///< across that one it is best divided
 };
 
 /// How much of parts of triangles is opaque. One thread's.
@@ -34,7 +32,7 @@ class PartMeasure {
     PartMeasure(const VolumeImpl& volume, const OpaquePart& part, const AreaSlack& slack);
 
     [[nodiscard]] PartArea area(const AreaFrame& frame, const CellPart& part) const;
-    /// All of a polygon, no cell of whose box is in another brick, is certainly opaque.
+    /// Whether all of a polygon whose box lies in this brick is certainly opaque.
     [[nodiscard]] bool allOpaque(const NodePlace& brick) const;
     /// All of it, or none.
     [[nodiscard]] static PartArea whole(const AreaFrame& frame, const UvPolygon& polygon) noexcept;

@@ -69,7 +69,7 @@ class LabelCut {
         }
         const int along = static_cast<int>(axis);
         const double middle = part.padded[axis] - 0.5 - space_.centre[along];
-        const double doubt = 2 * slack_.cut(along);
+        const double doubt = slack_.doubt(along);
         UvPolygon below;
         UvPolygon above;
         UvPolygon between;

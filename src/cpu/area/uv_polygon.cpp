@@ -8,8 +8,10 @@ namespace voxtact::cpu {
 
 namespace {
 
-/// Of the length of a polygon's edges: some roundings of coordinates up to 1, and of as many products.
-constexpr double kEdgeError = 0x1p-48;
+/// Of the length of a polygon's edges: the roundings of coordinates up to 1, and of their products; and what neighbours
+/// may not have in common, because an edge that both have is cut on each side by itself. A part is cut some 60 times at
+/// most until it is too small.
+constexpr double kEdgeError = 0x1p-47;
 
 /// Where an edge between corners on either side of height 0 crosses it.
 Uv crossing(const Uv& a, double heightA, const Uv& b, double heightB) noexcept {

@@ -19,6 +19,8 @@ from ._track import Tracker
 #: of the touch, voxels
 RESOLUTION = 1 / 64
 INFINITE = float("inf")
+#: labels that a warning lists
+_MOST_NAMED = 10
 
 
 def _check_method(method: str, what: str) -> None:
@@ -179,6 +181,8 @@ class Measuring:
         wanted = every if labels is True else [self._labels._number(label, "a label") for label in listed(labels, "labels")]
         if absent := sorted(set(wanted).difference(every, (0,))):
             outcome = "infinite" if what == "clearances to" else "0"
+            more = f" and {len(absent) - _MOST_NAMED} more" if len(absent) > _MOST_NAMED else ""
             warnings.warn(f"labels: no voxel of the label map has the label{'s' if len(absent) > 1 else ''} "
-                          f"{', '.join(map(str, absent))}; {what} {'them' if len(absent) > 1 else 'it'} are {outcome}", stacklevel=3)
+                          f"{', '.join(map(str, absent[:_MOST_NAMED]))}{more}; {what} {'them' if len(absent) > 1 else 'it'} are {outcome}",
+                          stacklevel=3)
         return wanted

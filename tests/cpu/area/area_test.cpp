@@ -216,20 +216,124 @@ TEST(Area, OfPlatesInFacesOfCells) {
     }
 }
 
-/// Rounding decides whether a plate in a face of the image is in it.
+/// Rounding decides whether a plate in a face of the image is in it, whatever the values are, and says so at once. A
+/// millionth of a millimetre within, it is.
 TEST(Area, OfAPlateInAFaceOfTheImageIsLeftOpen) {
+    std::mt19937_64 random(testSeed());
     Grid grid;
     grid.size = {20, 20, 20};
-    const VolumeData image = makeBytes(grid, [](auto...) { return 255; });
-    const PairArea found = area({makeFlat(3, 13, 4, 14, -0.5), image, byteRamp(), {0, 255}});
-    EXPECT_EQ(found.bounds.lo, 0);
-    EXPECT_GE(found.bounds.hi, 100);
-    EXPECT_LE(found.bounds.hi, 100.001);
-    EXPECT_EQ(found.end, AreaEnd::Rounding);
-    // A millionth of a millimetre within, it is.
-    const Mat4 within = translation({0, 0, 1e-6});
-    expectArea(100,
-               area({makeFlat(3, 13, 4, 14, -0.5), image, byteRamp(), {0, 255}}, {.tolerance = 1e-6}, 0.5, within));
+    for (const bool flat : {true, false}) {
+        const VolumeData image = makeBytes(grid, [&](auto...) { return flat ? 255 : uniform(random, 150, 255); });
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            for (const double at : {-0.5, 19.5}) {
+                const auto corner = [&](double u, double v) {
+                    Vec3 out{};
+                    out[axis] = at;
+                    out[(axis + 1) % 3] = u;
+                    out[(axis + 2) % 3] = v;
+                    return out;
+                };
+                const Held held(makeRectangle(corner(3, 4), corner(13, 4), corner(13, 14), corner(3, 14)), image,
+                                byteRamp(), {0, 255});
+                const PairArea found = area(held);
+                EXPECT_EQ(found.bounds.lo, 0);
+                EXPECT_GE(found.bounds.hi, 100);
+                EXPECT_LE(found.bounds.hi, 100.001);
+                EXPECT_EQ(found.end, AreaEnd::Rounding);
+                Vec3 inward{};
+                inward[axis] = at < 0 ? 1e-6 : -1e-6;
+                expectArea(100, area(held, {.tolerance = 1e-6}, 0.5, translation(inward)));
+                for (double& along : inward) {
+                    along = -along;
+                }
+                EXPECT_EQ(area(held, {}, 0.5, translation(inward)).bounds.hi, 0);
+            }
+        }
+    }
+}
+
+/// Plates some steps of a float within a face of the image, or beyond it, wherever the world is.
+TEST(Area, OfPlatesHardlyWithinTheImage) {
+    std::mt19937_64 random(testSeed());
+    cpu::AreaMeter meter = take(cpu::AreaMeter::create({.threads = 1, .tolerance = 0.01, .mostSteps = 200}));
+    const cpu::TransferFunction ramp = take(cpu::TransferFunction::create({byteRamp(), {0, 255}}));
+    std::size_t open = 0;
+    for (int round = 0; round < 4000; ++round) {
+        const std::size_t axis = random() % 3;
+        Grid grid;
+        for (std::size_t i = 0; i < 3; ++i) {
+            grid.size[i] = 2 + static_cast<std::uint32_t>(random() % 9);
+            grid.spacing[i] = uniform(random, 0.1, 1.5);
+        }
+        const double far = std::ldexp(1, static_cast<int>(random() % 36));
+        grid.origin[axis] = far;
+        const bool upper = random() % 2 == 0;
+        const long double face = (upper ? static_cast<long double>(grid.size[axis]) - 0.5L : -0.5L) *
+                                 static_cast<long double>(grid.spacing[axis]);
+        auto at = static_cast<float>(face);
+        for (std::uint64_t step = random() % 4; step > 0; --step) {
+            at = std::nextafter(at, random() % 2 == 0 ? 1e9F : -1e9F);
+        }
+        const bool inside = upper ? static_cast<long double>(at) <= face : static_cast<long double>(at) >= face;
+        const auto side = [&](std::size_t of) { return static_cast<double>(static_cast<float>(grid.spacing[of] / 2)); };
+        const auto corner = [&](double u, double v) {
+            Vec3 out{};
+            out[axis] = static_cast<double>(at);
+            out[(axis + 1) % 3] = u * side((axis + 1) % 3);
+            out[(axis + 2) % 3] = v * side((axis + 2) % 3);
+            return out;
+        };
+        const cpu::Mesh mesh =
+            take(cpu::Mesh::create(makeRectangle(corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)).view()));
+        const cpu::Volume volume = take(cpu::Volume::create(makeBytes(grid, [](auto...) { return 255; }).view()));
+        Vec3 offset{};
+        offset[axis] = far;
+        const Mat4 pose = translation(offset);
+        const cpu::BatchItem item{&mesh, &volume, &ramp, std::span(&pose, 1)};
+        const AreaBounds found = take(meter.measure({std::span(&item, 1), {}, 0.5})).pairs.at(0).bounds;
+        const double all = side((axis + 1) % 3) * side((axis + 2) % 3);
+        const double truth = inside ? all : 0;
+        EXPECT_LE(found.lo, truth * (1 + 1e-15)) << round;
+        EXPECT_GE(found.hi, truth * (1 - 1e-15)) << round;
+        open += found.hi - found.lo > 0.5 * all ? 1 : 0;
+    }
+    std::cout << open << " were left open\n";
+    EXPECT_GT(open, 0U);
+    EXPECT_LT(open, 3000U);
+}
+
+/// Far away a triangle's own area is known less well: what that adds is in the bounds, without any slack.
+TEST(Area, OfSmallTrianglesFarAway) {
+    std::mt19937_64 random(testSeed());
+    Grid grid;
+    grid.size = {20, 20, 20};
+    for (int round = 0; round < 300; ++round) {
+        std::array<Vec3, 3> corners{};
+        for (Vec3& at : corners) {
+            for (double& along : at) {
+                along = static_cast<double>(drawn(random, 2, 2.01));
+            }
+        }
+        Vec3 offset{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            offset[axis] = uniform(random, -1e6, 1e6);
+            grid.origin[axis] = offset[axis] + 0.1;
+        }
+        const Held held(oneTriangle(corners[0], corners[1], corners[2]), makeBytes(grid, [](auto...) { return 255; }),
+                        byteRamp(), {0, 255});
+        const AreaBounds found = area(held, {.threads = 1}, 0.5, translation(offset)).bounds;
+        std::array<std::array<long double, 3>, 2> sides{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            sides[0][axis] = static_cast<long double>(corners[1][axis]) - corners[0][axis];
+            sides[1][axis] = static_cast<long double>(corners[2][axis]) - corners[0][axis];
+        }
+        const auto& [a, b] = sides;
+        const long double truth =
+            std::hypot(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]) / 2;
+        EXPECT_LE(static_cast<long double>(found.lo), truth);
+        EXPECT_GE(static_cast<long double>(found.hi), truth);
+        EXPECT_GT(found.lo, 0);
+    }
 }
 
 TEST(Area, OfWhatIsTouchedAtAPointIsNothing) {
@@ -414,7 +518,9 @@ TEST(Area, OfAPlateBetweenLabelsMayBeInEither) {
     grid.size = {20, 20, 20};
     const LabelData labels =
         take(makeLabels(makeBytes(grid, [](auto, auto, auto z) { return z < 8 ? 1 : (z == 8 ? 2 : 3); }).view()));
-    const Held held(makeFlat(3, 13, 4, 14, 7.5), makeBytes(grid, [](auto...) { return 255; }), byteRamp(), {0, 255});
+    std::mt19937_64 random(testSeed());
+    const VolumeData image = makeBytes(grid, [&](auto...) { return uniform(random, 150, 255); });
+    const Held held(makeFlat(3, 13, 4, 14, 7.5), image, byteRamp(), {0, 255});
     const std::vector<LabelArea> found = labelAreas(held, &labels, std::vector<std::int32_t>{1, 2, 3});
     for (std::size_t i = 0; i < 2; ++i) {
         EXPECT_EQ(found[i].bounds.lo, 0);
@@ -422,6 +528,38 @@ TEST(Area, OfAPlateBetweenLabelsMayBeInEither) {
         EXPECT_EQ(found[i].end, AreaEnd::Rounding);
     }
     EXPECT_EQ(found[2].bounds.hi, 0);
+}
+
+/// What is found of one label is the same to the last bit, whichever others are asked for, and in which order.
+TEST(Area, OfALabelDoesNotDependOnTheOthers) {
+    std::mt19937_64 random(testSeed());
+    Grid grid;
+    grid.size = {20, 20, 20};
+    const VolumeData image = makeBytes(grid, [&](auto...) { return uniform(random, 0, 255); });
+    const LabelData labels =
+        take(makeLabels(makeBytes(grid, [](auto x, auto y, auto z) { return (x / 3 + y / 2 + z / 4) % 4; }).view()));
+    MeshData mesh = take(makeEllipsoid(300));
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        mesh.positions[i] = 9.3F + 0.1F * mesh.positions[i];
+    }
+    const Held held(mesh, image, byteRamp(), {0, 255});
+    const cpu::AreaDesc desc{.threads = 1, .tolerance = 1e-3, .mostSteps = 300};
+    const std::vector<LabelArea> all = labelAreas(held, &labels, std::vector<std::int32_t>{0, 1, 2, 3}, desc);
+    std::size_t budget = 0;
+    for (const std::vector<std::int32_t>& asked :
+         {std::vector<std::int32_t>{3}, {2, 1}, {3, 0, 3}, {1, 77, 2}, {3, 2, 1, 0}}) {
+        const std::vector<LabelArea> some = labelAreas(held, &labels, asked, desc);
+        for (const LabelArea& one : some) {
+            if (one.label != 77) {
+                const LabelArea& same = all[static_cast<std::size_t>(one.label)];
+                EXPECT_EQ(one.bounds.lo, same.bounds.lo);
+                EXPECT_EQ(one.bounds.hi, same.bounds.hi);
+                EXPECT_EQ(one.end, same.end);
+                budget += one.end == AreaEnd::Budget ? 1 : 0;
+            }
+        }
+    }
+    EXPECT_GT(budget, 0U) << "the steps are shared by nobody";
 }
 
 TEST(Area, RefusesWhatItCannotUse) {
