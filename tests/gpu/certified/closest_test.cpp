@@ -123,12 +123,15 @@ void checkClosest(const oracle::OraclePair& pair, const PairClearance& found) {
     const double apart = distanceOf(closest.mesh, closest.volume);
     EXPECT_LE(apart, found.bounds.hi * (1 + 1e-6));
     EXPECT_GE(apart, found.bounds.lo - slack);
-    if (found.bounds.hi == 0) {
+    // Single precision may have one place for two points that are very near to each other, and no direction then.
+    if (apart == 0) {
+        EXPECT_LE(found.bounds.hi, 10 * slack);
+    }
+    if (found.bounds.hi == 0 || apart == 0) {
         EXPECT_EQ(closest.perTranslation, (Vec3{}));
         EXPECT_EQ(closest.perRotation, (Vec3{}));
         return;
     }
-    ASSERT_GT(apart, 0);
     const Vec3 origin{pair.world_from_object[12], pair.world_from_object[13], pair.world_from_object[14]};
     Vec3 arm{};
     Vec3 away{};
