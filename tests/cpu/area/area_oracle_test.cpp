@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Contact areas of random scenes against the oracle, which knows nothing of cells' faces and linear parts.
 #include "cpu/scenes/certified_scenes.h"
-#include "cpu/scenes/engine_fixture.h"
+#include "cpu/scenes/held_scene.h"
 #include "cpu/scenes/margin_cases.h"
 #include "cpu/scenes/random_labels.h"
 #include "oracle/area_oracle.h"
@@ -17,26 +17,6 @@ namespace voxtact::test {
 namespace {
 
 using oracle::OracleArea;
-
-/// A scene that the engine has.
-struct HeldCase {
-    explicit HeldCase(const OracleScene& scene)
-        : mesh(take(cpu::Mesh::create(scene.mesh.view()))), volume(take(cpu::Volume::create(scene.volume.view()))),
-          function(take(cpu::TransferFunction::create({scene.points, scene.domain, scene.tableSize}))),
-          pose(scene.world_from_object), item{&mesh, &volume, &function, std::span(&pose, 1)},
-          threshold(scene.threshold) {}
-    HeldCase(const HeldCase&) = delete;
-    HeldCase& operator=(const HeldCase&) = delete;
-
-    [[nodiscard]] cpu::Batch batch() const { return {std::span(&item, 1), {}, threshold}; }
-
-    cpu::Mesh mesh;
-    cpu::Volume volume;
-    cpu::TransferFunction function;
-    Mat4 pose;
-    cpu::BatchItem item;
-    double threshold;
-};
 
 /// Like those of the certified tests; in half of them more is opaque than at the onset of contact.
 CertifiedCase areaCase(std::uint64_t seed, std::uint64_t number) {
@@ -92,15 +72,15 @@ TEST(AreaOracle, TheTruthIsBetweenTheBounds) {
     for (std::uint64_t number = 0; number < cases; ++number) {
         SCOPED_TRACE("case " + std::to_string(number));
         const CertifiedCase c = areaCase(seed, number);
-        const HeldCase held(c.scene);
+        const HeldScene held(c.scene);
         const Surface surface = surfaceOf(c.scene);
         const double tolerance = std::max(1e-3 * surface.area, 1e-9);
         cpu::AreaMeter meter = take(cpu::AreaMeter::create({.threads = 1, .tolerance = tolerance}));
-        const PairArea says = take(meter.measure(held.batch())).pairs.at(0);
+        const PairArea says = take(meter.measure(held.batch)).pairs.at(0);
         const OracleArea truth = take(oracle::areaOracle(c.scene.pair()));
         expectBetween(says.bounds, truth, surface.doubt);
         EXPECT_LE(says.bounds.lo, surface.area + surface.doubt);
-        const PairAnswer touch = take(detector.detect(held.batch())).pairs.at(0);
+        const PairAnswer touch = take(detector.detect(held.batch)).pairs.at(0);
         EXPECT_TRUE(touch.hit || touch.possible || says.bounds.hi == 0);
         EXPECT_TRUE(says.bounds.lo == 0 || touch.hit || touch.possible);
         EXPECT_EQ(says.end == AreaEnd::Closed, says.bounds.hi - says.bounds.lo <= tolerance);
@@ -126,13 +106,13 @@ TEST(AreaOracle, TheTruthOfLabelsIsBetweenTheirBounds) {
     for (std::uint64_t number = 0; number < cases; ++number) {
         const CertifiedCase c = areaCase(seed, number);
         const LabelData labels = randomLabels(random, c.scene.volume.grid);
-        HeldCase held(c.scene);
+        HeldScene held(c.scene);
         held.item.labels = &labels;
         const Surface surface = surfaceOf(c.scene);
         const double tolerance = std::max(1e-3 * surface.area, 1e-9);
         cpu::AreaMeter meter = take(cpu::AreaMeter::create({.threads = 1, .tolerance = tolerance}));
-        const std::vector<LabelArea> says = take(meter.measureLabels(held.batch(), asked)).labels;
-        const AreaBounds whole = take(meter.measure(held.batch())).pairs.at(0).bounds;
+        const std::vector<LabelArea> says = take(meter.measureLabels(held.batch, asked)).labels;
+        const AreaBounds whole = take(meter.measure(held.batch)).pairs.at(0).bounds;
         ASSERT_EQ(says.size(), asked.size());
         AreaBounds all;
         for (std::size_t i = 0; i < asked.size(); ++i) {

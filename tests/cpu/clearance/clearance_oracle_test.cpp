@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Clearances of random scenes against the oracle, which knows nothing of clusters, bricks and directions.
 #include "cpu/scenes/certified_scenes.h"
-#include "cpu/scenes/engine_fixture.h"
+#include "cpu/scenes/held_scene.h"
 #include "cpu/scenes/margin_cases.h"
 #include "cpu/scenes/random_labels.h"
 #include "cpu/scenes/random_scene.h"
@@ -18,26 +18,6 @@ namespace voxtact::test {
 namespace {
 
 using oracle::OracleClearance;
-
-/// A scene that the engine has.
-struct HeldScene {
-    explicit HeldScene(const OracleScene& scene)
-        : mesh(take(cpu::Mesh::create(scene.mesh.view()))), volume(take(cpu::Volume::create(scene.volume.view()))),
-          function(take(cpu::TransferFunction::create({scene.points, scene.domain, scene.tableSize}))),
-          pose(scene.world_from_object), item{&mesh, &volume, &function, std::span(&pose, 1)}, batch{
-                                                                                                   std::span(&item, 1),
-                                                                                                   {},
-                                                                                                   scene.threshold} {}
-    HeldScene(const HeldScene&) = delete;
-    HeldScene& operator=(const HeldScene&) = delete;
-
-    cpu::Mesh mesh;
-    cpu::Volume volume;
-    cpu::TransferFunction function;
-    Mat4 pose;
-    cpu::BatchItem item;
-    cpu::Batch batch;
-};
 
 /// Of coordinates, mm: what the oracle rounds.
 double largestCoordinate(const OracleScene& scene) {
