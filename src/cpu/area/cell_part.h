@@ -34,7 +34,7 @@ class PartMeasure {
     [[nodiscard]] PartArea area(const AreaFrame& frame, const CellPart& part) const;
     /// Whether all of a polygon whose box lies in this brick is certainly opaque.
     [[nodiscard]] bool allOpaque(const NodePlace& brick) const;
-    /// All of it, or none.
+    /// A polygon's own area, opaque or not.
     [[nodiscard]] static PartArea whole(const AreaFrame& frame, const UvPolygon& polygon) noexcept;
 
   private:
