@@ -59,7 +59,7 @@ typedef struct vxt_host_area_desc {
     size_t struct_size;  ///< sizeof
     double tolerance;    ///< mm^2, from 1e-9 on; default 0.1
     double resolution;   ///< of the touch, as for a detector; default 1/64
-    uint64_t most_steps; ///< of a pair, at least 1; default 2^18
+    uint64_t most_steps; ///< of a pair, or of a label of one, at least 1; default 2^18
     uint32_t threads;    ///< 0, the default: one for each processor
     uint32_t reserved;   ///< 0
 } vxt_host_area_desc;

@@ -94,6 +94,16 @@ TEST(CArea, IsWhatTheCppInterfaceSays) {
     EXPECT_GT(budget, 0U);
 }
 
+TEST(CArea, HasTheCppInterfacesDefaults) {
+    const vxt_host_area_desc c = vxt_host_area_desc_init();
+    const cpu::AreaDesc cpp;
+    EXPECT_EQ(c.tolerance, cpp.tolerance);
+    EXPECT_EQ(c.resolution, cpp.resolution);
+    EXPECT_EQ(c.most_steps, cpp.mostSteps);
+    EXPECT_EQ(c.threads, cpp.threads);
+    EXPECT_EQ(c.reserved, 0U);
+}
+
 TEST(CArea, RefusesNullAndWhatTheCppInterfaceRefuses) {
     const auto text = [](vxt_result result) {
         EXPECT_EQ(result, VXT_ERROR_INVALID_ARGUMENT);

@@ -70,9 +70,9 @@ struct AreaSlack {
     [[nodiscard]] double cut(int axis) const noexcept { return 2 * place[axis]; }
     /// What is cut this far from a plane is truly on that side of it: `cut`, and `place`, and as much again.
     [[nodiscard]] double doubt(int axis) const noexcept { return 2 * cut(axis); }
-    /// Between the value of a point and that of its cell's interpolant where it is computed, along all axes together:
-    /// from where it truly is to there (`place`), from there to the cell (`cut`), and back by another cell's
-    /// interpolant; and one for roundings.
+    /// The way along which a point's value may differ from the one that is computed, all axes together: from its true
+    /// place to the computed one (`place`), from there into the cell (`cut`), the same way out again, by which the
+    /// cell's interpolant is continued (`cut`), and as much as `place` for roundings.
     [[nodiscard]] double reach() const noexcept { return 6 * (place.x + place.y + place.z); }
 };
 

@@ -85,7 +85,7 @@ class Measuring:
             measures in the opaque part of each of these labels, by number or name, instead (True: all but 0): a column for each. The
             scene's label map must be on its volume's grid. Areas in a label that no voxel has are 0; that is warned of
         most_steps
-            a pose that takes more is left with the bounds that it has
+            a pose, or a label of one, that takes more is left with the bounds that it has
 
         The host engine measures, also for scenes on a device.
         """
