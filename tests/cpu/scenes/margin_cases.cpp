@@ -104,12 +104,11 @@ void scaleTo(MarginCase& c, double margin) {
     }
 }
 
-KnownPlane makeKnownPlane(std::mt19937_64& random, int number) {
-    constexpr std::array kTypes{ScalarType::UInt8, ScalarType::Int16, ScalarType::UInt16, ScalarType::Float32};
+KnownPlane makeKnownPlane(std::mt19937_64& random, int number, std::span<const ScalarType> types) {
     const bool sheet = number / 4 % 2 == 1;
     const int flat = number / 8 % 3; // the tip, an edge, or all of the triangle is nearest
     KnownPlane known;
-    const ScalarType type = kTypes[static_cast<std::size_t>(number) % kTypes.size()];
+    const ScalarType type = types[static_cast<std::size_t>(number) % types.size()];
     const double base = type == ScalarType::Int16 ? -70 : 10;
     const Vec3 slope{7, 3, 2};
     known.domain = {base, base + 256};

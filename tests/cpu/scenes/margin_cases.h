@@ -4,7 +4,9 @@
 #include "cpu/scenes/certified_scenes.h"
 #include "voxtact/cpu.h"
 
+#include <array>
 #include <random>
+#include <span>
 #include <vector>
 
 /// Scenes for what asks how near something is.
@@ -36,8 +38,12 @@ struct KnownPlane {
     double slack = 0;    ///< mm: what is so much nearer or farther is certainly told apart
 };
 
+inline constexpr std::array kVoxelTypes{ScalarType::UInt8, ScalarType::Int16, ScalarType::UInt16, ScalarType::Float32};
+
 /// `number` says of which kind it is.
-[[nodiscard]] KnownPlane makeKnownPlane(std::mt19937_64& random, int number);
+/// `types`: of the voxels, by turns.
+[[nodiscard]] KnownPlane makeKnownPlane(std::mt19937_64& random, int number,
+                                        std::span<const ScalarType> types = kVoxelTypes);
 /// The world, larger or smaller: so the distance becomes `distance`.
 void scaleTo(KnownPlane& known, double distance);
 

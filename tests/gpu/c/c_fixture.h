@@ -135,10 +135,10 @@ class CGpuTest : public GpuTest {
         return answerOf(*answer);
     }
 
-    /// 4x4x4 voxels over the unit cube, opaque where x < 0.5, and a square across it on 16x16 pixels.
+    /// 6x6x6 voxels over the unit cube, opaque where x < 0.5, and a square across it on 16x16 pixels.
     [[nodiscard]] static RandomScene halfOpaque() {
         RandomScene scene;
-        scene.volume = makeBytes(unitGrid(4), [](std::uint32_t x, auto, auto) { return x < 2 ? 255.0 : 0.0; });
+        scene.volume = makeBytes(unitGrid(6), [](std::uint32_t x, auto, auto) { return x < 3 ? 255.0 : 0.0; });
         scene.points = {{0, 0}, {255, 1}};
         scene.domain = {0, 255};
         scene.mesh = makeFlat(0, 1, 0, 1, 0.5);
@@ -148,7 +148,7 @@ class CGpuTest : public GpuTest {
         return scene;
     }
     [[nodiscard]] static VolumeData twoLabels() {
-        return makeBytes(unitGrid(2), [](std::uint32_t x, auto, auto) { return x == 0 ? 0.0 : 3.0; });
+        return makeBytes(unitGrid(6), [](std::uint32_t x, auto, auto) { return x < 3 ? 0.0 : 3.0; });
     }
 
     vxt_queue queue_ = vxt_queue_init();

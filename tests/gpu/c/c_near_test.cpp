@@ -192,7 +192,7 @@ TEST_F(CNearTest, MeasuresHowNearLabelsAre) {
     RandomScene scene = halfOpaque(); // up to x = 0.5; the map has the label 0 up to there, and 3 beyond
     scene.poses = {translation({0.7, 0, 0})};
     const CScene sides(context_.get(), queue_, scene,
-                       makeBytes(scene.volume.grid, [](std::uint32_t x, auto, auto) { return x < 2 ? 0.0 : 3.0; }));
+                       makeBytes(scene.volume.grid, [](std::uint32_t x, auto, auto) { return x < 3 ? 0.0 : 3.0; }));
     COneItem item(sides, scene);
     const std::int32_t labels[] = {3, 0, 5};
     item.batch.labels = labels;

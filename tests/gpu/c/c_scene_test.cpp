@@ -28,20 +28,20 @@ TEST_F(CGpuTest, EditsTakeEffectInTheOrderOfTheCommands) {
     };
     const std::uint64_t before = ask(*detector, of).pairs.at(0).count;
     EXPECT_EQ(before, 128U);
-    const vxt_voxel_box right{{2, 0, 0}, {2, 4, 4}};
+    const vxt_voxel_box right{{3, 0, 0}, {3, 6, 6}};
     EXPECT_EQ(edited([&](auto commands) { need(vxt_volume_cmd_set_box(sides.volume.get(), commands, &right, 255)); }),
               256U);
     const double centre[3] = {0.5, 0.5, 0.5};
     EXPECT_EQ(edited([&](auto commands) { need(vxt_volume_cmd_set_ball(sides.volume.get(), commands, centre, 9, 0)); }),
               0U);
-    const std::vector<std::byte> opaque(32, std::byte{255});
+    const std::vector<std::byte> opaque(108, std::byte{255});
     EXPECT_EQ(edited([&](auto commands) {
                   need(vxt_volume_cmd_write(sides.volume.get(), commands, &right, opaque.data(), opaque.size()));
               }),
               128U);
     const RawVulkan::HostBuffer source =
         raw.makeBuffer(std::span<const std::byte>(opaque), VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
-    const vxt_voxel_box left{{0, 0, 0}, {2, 4, 4}};
+    const vxt_voxel_box left{{0, 0, 0}, {3, 6, 6}};
     EXPECT_EQ(edited([&](auto commands) {
                   need(vxt_volume_cmd_copy(sides.volume.get(), commands, &left, source.buffer, 0));
               }),
@@ -149,7 +149,7 @@ TEST_F(CGpuTest, WrapsTheCallersObjects) {
     const CScene sides(context_.get(), queue_, scene, twoLabels());
     RawVulkan raw(gpu().device);
     vxt_wrapped_volume wrapped = vxt_wrapped_volume_init();
-    wrapped.view = raw.makeImage(VK_IMAGE_TYPE_3D, VK_FORMAT_R8_UNORM, {4, 4, 4}, scene.volume.voxels,
+    wrapped.view = raw.makeImage(VK_IMAGE_TYPE_3D, VK_FORMAT_R8_UNORM, {6, 6, 6}, scene.volume.voxels,
                                  VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     wrapped.format = VK_FORMAT_R8_UNORM;
     wrapped.grid = cGrid(scene.volume.grid);
@@ -176,7 +176,7 @@ TEST_F(CGpuTest, WrapsTheCallersObjects) {
     const auto mesh =
         made<vxt_mesh>(vxt_mesh_destroy, [&](auto out) { return vxt_mesh_wrap(context_.get(), &wrappedMesh, out); });
     const VkCommandBuffer commands = raw.begin();
-    const vxt_voxel_box whole{{0, 0, 0}, {4, 4, 4}};
+    const vxt_voxel_box whole{{0, 0, 0}, {6, 6, 6}};
     need(vxt_volume_cmd_update_bricks(volume.get(), commands, &whole));
     raw.submitAndWait(commands);
 
@@ -225,7 +225,7 @@ TEST_F(CGpuTest, WrapsTheCallersObjects) {
     EXPECT_EQ(info.has_range, 1U);
     EXPECT_EQ(info.range.hi, 255);
     EXPECT_EQ(info.format, VK_FORMAT_R8_UNORM);
-    EXPECT_EQ(info.grid.size[2], 4U);
+    EXPECT_EQ(info.grid.size[2], 6U);
     std::size_t count = 0;
     const std::int32_t* labels = vxt_label_map_values(sides.labelMap.get(), &count);
     EXPECT_EQ(std::vector(labels, labels + count), (std::vector<std::int32_t>{0, 3}));

@@ -3,6 +3,7 @@
 // host.
 #include "certified/counted_fixture.h"
 #include "detect/certified/certified_queues.h"
+#include "few_kinds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -92,7 +93,7 @@ struct Voxels {
 
 /// All zero.
 Voxels zeroVoxels(std::mt19937_64& random, ScalarType type) {
-    const auto side = [&] { return static_cast<std::uint32_t>(random() % 28 + 4); };
+    const auto side = [&] { return usualSide(random, 4, 31); };
     Voxels out;
     out.data.grid = unitGrid(side(), side(), side());
     out.data.type = type;

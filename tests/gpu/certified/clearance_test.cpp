@@ -69,8 +69,9 @@ class ClearanceTest : public CertifiedTest {
 TEST_F(ClearanceTest, OfKnownDistances) {
     std::mt19937_64 random(testSeed());
     BlockingDetector device = detector(howNear());
+    const std::vector<ScalarType> types = fewTypes(random);
     for (int round = 0; round < 48 && !HasFailure(); ++round) {
-        KnownPlane known = makeKnownPlane(random, round);
+        KnownPlane known = makeKnownPlane(random, round, types);
         SCOPED_TRACE("round " + std::to_string(round));
         const double relative = known.slack / known.distance;
         for (const double distance : {0.3, 2.0, 7.0}) {
@@ -94,7 +95,7 @@ TEST_F(ClearanceTest, IsNeverBesideTheHostsOnRandomCases) {
     std::map<ClearanceEnd, std::size_t> ends;
     std::size_t apart = 0;
     const auto make = [&](std::uint64_t number) { return makeClearanceCase(seed, number); };
-    const std::uint64_t cases = forFewKinds(randomCases(75, 3), seed, make, [&](const CertifiedCase& c, auto) {
+    const std::uint64_t cases = forFewKinds(randomCases(300, 12), seed, make, [&](const CertifiedCase& c, auto) {
         const oracle::OraclePair pair = c.scene.pair();
         const PairClearance host =
             onHost(pair, [&](const cpu::Batch& batch) { return take(meter.measure(batch)).pairs.at(0); });

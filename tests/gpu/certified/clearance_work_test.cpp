@@ -18,7 +18,7 @@ class ClearanceWorkTest : public CertifiedTest {
     static constexpr double kThreshold = kAlmost / 255 + 1.5e-7;
 
     VolumeData slab() const {
-        VolumeData image = makeBytes(unitGrid(380, 380, 8), [](auto x, auto y, auto z) {
+        VolumeData image = makeBytes(unitGrid(380, 380, 7), [](auto x, auto y, auto z) {
             return x % 8 == 3 && y % 8 == 3 && z == 6 ? kAlmost : 0.0;
         });
         image.grid.spacing = {1, 1, 1};

@@ -142,7 +142,7 @@ void KnownWays::expectEndOfATurn(BlockingDetector& device) {
 void KnownWays::expectTightTurn(BlockingDetector& device) {
     constexpr double kAngle = 0.45;
     Grid grid;
-    grid.size = {32, 5, 20};
+    grid.size = {33, 5, 20};
     grid.origin = {-16, -2, -4};
     const VolumeData image = makeVolume<float>(grid, ScalarType::Float32, [](auto x, auto, auto z) {
         return x == 13 && z <= 11 ? 10.0 : -10.0; // up to z = 7.5 mm at x = -3 mm

@@ -38,7 +38,7 @@ TEST_F(LeftTest, OfMoreEntriesThanALaneHasABlockOf) {
     const std::uint64_t seed = testSeed();
     std::mt19937_64 random(1); // how much is left depends on the mesh
     const VolumeData noise =
-        makeBytes(unitGrid(32), [&](auto...) { return random() % 4 == 0 ? static_cast<double>(random() % 256) : 0.0; });
+        makeBytes(unitGrid(33), [&](auto...) { return random() % 4 == 0 ? static_cast<double>(random() % 256) : 0.0; });
     const std::array points{ControlPoint{0, 0}, ControlPoint{120, 0}, ControlPoint{130, 1}, ControlPoint{255, 1}};
     const TransferFunctionDesc table{points, {0, 255}, kDefaultTableSize};
     MeshData data;
@@ -100,7 +100,7 @@ TEST_F(LeftTest, WhatIsTooMuchOfAnUnknownMeshIsUndecided) {
     wrapped.storage = true;
     const Mesh unknown = take(Mesh::wrap(context(), wrapped));
     const VolumeData image =
-        makeBytes(unitGrid(128), [](auto x, auto y, auto z) { return x == 127 && y == 0 && z == 127 ? 255.0 : 0.0; });
+        makeBytes(unitGrid(127), [](auto x, auto y, auto z) { return x == 126 && y == 0 && z == 126 ? 255.0 : 0.0; });
     const Volume volume = take(Volume::upload(context(), queue(), image.view(), {.bricks = true}));
     const TransferFunction function = upload(byteRamp(), {0, 255});
     const Mat4 pose = identity();

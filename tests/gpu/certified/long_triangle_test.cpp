@@ -266,7 +266,7 @@ TEST_F(LongTrianglesTest, FarAwayTheClearanceOfAFineShaftIsFound) {
             addTriangle(shaft, corner(i, ring), corner(i + 1, ring + 1), corner(i, ring + 1));
         }
     }
-    const VolumeData volume = take(makeBuiltinVolume("head:128"));
+    const VolumeData volume = take(makeBuiltinVolume("head:120"));
     const std::array points{ControlPoint{0, 0}, ControlPoint{255, 1}};
     const std::array<Mat4, 1> poses{Mat4{-0.826859621, 0.211349227, -0.521185831, 0, -0.385042567, -0.888198603,
                                          0.250689975, 0, -0.409933395, 0.407964148, 0.815794009, 0, 118.2078, -92.4435,

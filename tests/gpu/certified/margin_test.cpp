@@ -56,7 +56,7 @@ TEST_F(MarginTest, IsTheHostsTextBitForBitOnRandomCases) {
     cpu::ClearanceMeter meter = take(cpu::ClearanceMeter::create({.threads = 1}));
     std::map<int, std::size_t> said;
     const auto make = [&](std::uint64_t number) { return makeMarginCase(seed, number, meter); };
-    const std::uint64_t cases = forFewKinds(randomCases(75, 7), seed, make, [&](MarginCase& c, auto) {
+    const std::uint64_t cases = forFewKinds(randomCases(300, 28), seed, make, [&](MarginCase& c, auto) {
         scaleTo(c, kMargin);
         const oracle::OraclePair pair = c.scene.pair();
         const HostSide side(pair.volume, pair.transferFunction, pair.mesh);
@@ -85,8 +85,9 @@ TEST_F(MarginTest, IsTheHostsTextBitForBitOnRandomCases) {
 TEST_F(MarginTest, TellsKnownDistancesApart) {
     std::mt19937_64 random(testSeed());
     BlockingDetector device = detector(within(kMargin));
+    const std::vector<ScalarType> types = fewTypes(random);
     for (int round = 0; round < 24 && !HasFailure(); ++round) {
-        KnownPlane known = makeKnownPlane(random, round);
+        KnownPlane known = makeKnownPlane(random, round, types);
         SCOPED_TRACE("round " + std::to_string(round));
         const double relative = known.slack / known.distance;
         const auto at = [&](double distance) {

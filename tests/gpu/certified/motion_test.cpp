@@ -175,7 +175,7 @@ TEST_F(MotionTest, SaysNothingAgainstTheHostOnRandomCases) {
     const MotionSearch search{0.01, Interpolation::Slerp};
     BlockingDetector device = detector(along(search));
     const auto make = [&](std::uint64_t number) { return makeMarginCase(seed, number, meter); };
-    const std::uint64_t cases = forFewKinds(randomCases(1000, 100), seed, make, [&](MarginCase& c, auto number) {
+    const std::uint64_t cases = forFewKinds(randomCases(4000, 400), seed, make, [&](MarginCase& c, auto number) {
         scaleTo(c, std::exp2(uniform(random, -2, 4)));
         const oracle::OraclePair pair = c.scene.pair();
         const Mat4 axes = randomRotation(random);

@@ -100,7 +100,7 @@ TEST_F(ToleranceTest, SaysNothingAgainstTheHostOnRandomCases) {
     Said said;
     Said ofHost;
     const auto make = [&](std::uint64_t number) { return makeMarginCase(seed, number, meter); };
-    const std::uint64_t cases = forFewKinds(randomCases(1000, 40), seed, make, [&](MarginCase& c, auto number) {
+    const std::uint64_t cases = forFewKinds(randomCases(4000, 160), seed, make, [&](MarginCase& c, auto number) {
         scaleTo(c, kOff.distance * std::exp2(static_cast<double>(1 + number % 5))); // a turn adds to the distance
         const oracle::OraclePair pair = c.scene.pair();
         const HostSide side(pair.volume, pair.transferFunction, pair.mesh);

@@ -5,6 +5,7 @@
 
 #include "core/method/method_table.h"
 #include "cpu/scenes/random_scene.h"
+#include "few_kinds.h"
 #include "lab/engines/localize.h"
 #include "oracle/oracle.h"
 #include "support/scenes.h"
@@ -92,8 +93,9 @@ class HostAgreementTest : public GpuTest {
         std::mt19937_64 random(testSeed());
         std::uint64_t survivors = 0;
         const std::size_t least = scenes * kPosesOfAScene;
+        FewKindsOfImage few(ImageKinds::Most);
         for (std::size_t i = 0; (i < scenes || survivors <= least) && i < 10 * scenes && !HasFailure(); ++i) {
-            const RandomScene scene = makeRandomScene(random, kPosesOfAScene);
+            const RandomScene scene = few.next([&] { return makeRandomScene(random, kPosesOfAScene); });
             survivors += expectAgreement(scene.rangeTest ? range : clamp, scene, "scene " + std::to_string(i));
         }
         EXPECT_GT(survivors, least);
@@ -185,6 +187,7 @@ TEST_F(HostAgreementTest, ComputeOfTrianglesWithAFarCorner) {
     std::mt19937_64 random(testSeed());
     std::size_t hits = 0;
     const std::size_t scenes = randomCases(3000, 100);
+    FewKindsOfImage few(ImageKinds::Most);
     for (const Projection projection : {Projection::View, Projection::TwoView, Projection::DominantAxis}) {
         for (const Boundary boundary : {Boundary::Range, Boundary::Clamp}) {
             SCOPED_TRACE(std::string(toString(projection)) + ", " + toString(boundary));
@@ -198,7 +201,7 @@ TEST_F(HostAgreementTest, ComputeOfTrianglesWithAFarCorner) {
             cpu::Detector listing = take(cpu::Detector::create(
                 {.boundary = boundary, .projection = projection, .outputs = {.triangles = true}}));
             for (std::size_t i = 0; i < scenes / 6 && !HasFailure(); ++i) {
-                const RandomScene scene = makeFarCornerScene(random, 2);
+                const RandomScene scene = few.next([&] { return makeFarCornerScene(random, 2); });
                 const BothSides sides(context(), queue(), scene);
                 const BatchItem item{&sides.mesh, &sides.volume, &sides.function, scene.poses};
                 const cpu::BatchItem hostItem{&sides.hostMesh, &sides.hostVolume, &sides.hostFunction, scene.poses};
@@ -243,8 +246,9 @@ TEST_F(HostAgreementTest, AllMethodsOnTheRealHead) {
 TEST_F(HostAgreementTest, EveryDifferingFragmentHasAReason) {
     std::mt19937_64 random(testSeed());
     FragmentTrace trace = take(FragmentTrace::create(context(), Filter::Hardware, queue()));
+    FewKindsOfImage few(ImageKinds::Most);
     for (std::size_t i = 0; (i < randomCases(kScenes, 2) || compared_ <= 10000) && i < kScenes && !HasFailure(); ++i) {
-        const RandomScene scene = makeRandomScene(random, 2);
+        const RandomScene scene = few.next([&] { return makeRandomScene(random, 2); });
         if (scene.domain.hi - scene.domain.lo > kWidestDomain) {
             continue;
         }
@@ -257,9 +261,10 @@ TEST_F(HostAgreementTest, EveryDifferingFragmentHasAReason) {
 TEST_F(HostAgreementTest, EveryDifferingFragmentOfASliverHasAReason) {
     std::mt19937_64 random(testSeed());
     FragmentTrace trace = take(FragmentTrace::create(context(), Filter::Hardware, queue()));
+    FewKindsOfImage few(ImageKinds::Most);
     for (std::size_t i = 0; (i < randomCases(kScenes / 7, 2) || compared_ <= 10000) && i < kScenes && !HasFailure();
          ++i) {
-        RandomScene scene = makeRandomScene(random, 2);
+        RandomScene scene = few.next([&] { return makeRandomScene(random, 2); });
         if (scene.domain.hi - scene.domain.lo > kWidestDomain) {
             continue;
         }

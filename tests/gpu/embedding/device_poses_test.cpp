@@ -2,6 +2,7 @@
 // Poses in device memory: the pairs that the device makes of them are those of the host, bit for bit.
 #include "certified/counted_fixture.h"
 #include "detect/results/results_impl.h"
+#include "few_kinds.h"
 #include "gpu/context_impl.h"
 #include "raw_fixture.h"
 #include "shared.h"
@@ -66,7 +67,7 @@ Mat4 anyPose(const Grid& grid, std::mt19937_64& random) {
 Grid anyGrid(std::mt19937_64& random) {
     Grid grid;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        grid.size[axis] = static_cast<std::uint32_t>(5 + random() % 12);
+        grid.size[axis] = usualSide(random, 5, 16);
         grid.spacing[axis] = uniform(random, 0.2, 3);
         grid.origin[axis] = uniform(random, -100, 100);
     }

@@ -95,7 +95,7 @@ TEST_F(StagedTest, ManyPosesBecomeTheSamePairsOnTheDevice) {
     constexpr std::uint32_t kMany = 2 * kFewestHostPoses;
     std::mt19937_64 random(testSeed());
     const TransferFunction function = upload(byteRamp(), {0, 255});
-    const Mesh mesh = upload(makeFlat(0, 1, 0, 1, 0.5));
+    const Mesh mesh = take(Mesh::upload(context(), queue(), makeFlat(0, 1, 0, 1, 0.5).view(), {.clusters = true}));
     std::vector<Detector> hosts;
     std::vector<Detector> devices;
     for (const Projection projection : {Projection::Conservative, Projection::TwoView, Projection::DominantAxis}) {

@@ -66,17 +66,15 @@ class SmallScenes {
 
     /// From the first seed on that `random` gives and that makes such a scene; that one is `seed()` then.
     RandomScene next(std::mt19937_64& random) {
-        for (;;) {
+        RandomScene scene = few_.next([&] {
             seed_ = random();
             local_.seed(seed_);
-            RandomScene scene = makeRandomScene(local_, poses_);
-            if (few_.take(scene.volume.view())) {
-                scene.view.width = std::min(scene.view.width, 100U);
-                scene.view.height = std::min(scene.view.height, 100U);
-                scene.rangeTest = true;
-                return scene;
-            }
-        }
+            return makeRandomScene(local_, poses_);
+        });
+        scene.view.width = std::min(scene.view.width, 100U);
+        scene.view.height = std::min(scene.view.height, 100U);
+        scene.rangeTest = true;
+        return scene;
     }
     [[nodiscard]] std::uint64_t seed() const { return seed_; }
     /// What the scene's own random numbers come from.
@@ -86,7 +84,7 @@ class SmallScenes {
     std::size_t poses_;
     std::uint64_t seed_ = 0;
     std::mt19937_64 local_;
-    FewKindsOfImage few_{std::numeric_limits<std::uint64_t>::max()};
+    FewKindsOfImage few_{ImageKinds::Most};
 };
 
 TEST_F(OutputsTest, ComputeIsTheHostBitForBit) {
