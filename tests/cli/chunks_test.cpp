@@ -373,16 +373,37 @@ TEST_F(ChunksTest, WhatIsNoFolderOfARunIsRefused) {
     EXPECT_EQ(std::distance(fs::directory_iterator(path("run")), fs::directory_iterator()), 1);
     fs::remove(path("run") + "/notes.txt");
     EXPECT_EQ(output(chunked()), output(detect())) << "an empty folder is a new one";
-    const std::string manifest = readText(path("run") + "/voxtact-run.json");
+    EXPECT_THAT(refused(1, with(detect(), {"--resume", path("no/such")})),
+                HasSubstr("the folder '" + path("no") + "' does not exist: make it first"));
+}
+
+TEST_F(ChunksTest, ADamagedManifestIsWrittenAnew) {
+    const std::string whole = output(chunked());
+    const std::string file = path("run") + "/voxtact-run.json";
+    const std::string manifest = readText(file);
     for (const std::string& damage :
          {std::string(), std::string("{}"), manifest.substr(0, manifest.size() / 2), "[" + manifest + "]",
           std::string(manifest).replace(manifest.find("pose,"), 4, "POSE")}) {
-        writeText(path("run") + "/voxtact-run.json", damage);
-        EXPECT_THAT(refused(1, chunked()), HasSubstr("is damaged"));
-        EXPECT_THAT(refused(1, {"merge", path("run")}), HasSubstr("is damaged"));
+        writeText(file, damage);
+        EXPECT_THAT(refused(1, {"merge", path("run")}), HasSubstr("is damaged; the command that made it"));
+        EXPECT_THAT(refused(1, chunked({"--threshold", "0.3"})), HasSubstr("no chunk there is of this command"));
+        {
+            const HeldLock other(path("run") + "/run.lock", LOCK_SH);
+            EXPECT_THAT(refused(1, chunked()), HasSubstr("is damaged, and other processes are at work"));
+        }
+        EXPECT_EQ(readText(file), damage) << "nothing is written but by the command that made it";
+        const Ran ran = run(chunked());
+        EXPECT_EQ(ran.status, 0);
+        EXPECT_EQ(ran.out, whole);
+        EXPECT_THAT(ran.err, AllOf(HasSubstr("was damaged and is written anew"), HasSubstr("were there already")));
+        EXPECT_EQ(readText(file), manifest);
+        EXPECT_EQ(output({"merge", path("run")}), whole);
     }
-    EXPECT_THAT(refused(1, with(detect(), {"--resume", path("no/such")})),
-                HasSubstr("the folder '" + path("no") + "' does not exist: make it first"));
+    std::string other = manifest;
+    writeText(file, other.replace(other.find(": 2"), 3, ": 1"));
+    for (const Arguments& command : {chunked(), Arguments{"merge", path("run")}}) {
+        EXPECT_THAT(refused(1, command), HasSubstr("is of another version of voxtact; begin anew"));
+    }
 }
 
 TEST_F(ChunksTest, TwoProcessesDoNotDoTheSame) {

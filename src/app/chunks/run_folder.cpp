@@ -7,8 +7,6 @@
 #include "core/base/try.h"
 #include "io/text/small_file.h"
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -25,9 +23,7 @@ namespace voxtact::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
-constexpr int kManifestFormat = 2;
 constexpr const char* kManifestName = "voxtact-run.json";
 constexpr std::uintmax_t kMostManifest = std::uintmax_t{1} << 30U;
 constexpr const char* kLockName = "run.lock";
@@ -40,71 +36,9 @@ Error cannotUse(const fs::path& folder, const std::string& why) {
     return {ErrorCode::File, 0, "--resume: cannot use " + folderText(folder) + ": " + why};
 }
 
-std::string dump(const Json& json, int indent = -1) {
-    // File names may hold any bytes; their hashes tell apart what is replaced here.
-    return json.dump(indent, ' ', false, Json::error_handler_t::replace);
-}
-
 std::string shardName(const Shard& shard) {
     return std::string(kShardName) + std::to_string(shard.index) + "-of-" + std::to_string(shard.count) +
            std::string(kShardEnding);
-}
-
-/// All but the check.
-Json bodyOf(const RunManifest& manifest) {
-    Json facts = Json::array();
-    for (const auto& [name, value] : manifest.facts) {
-        facts.push_back({name, value});
-    }
-    Json outputs = Json::array();
-    for (const RunOutput& output : manifest.outputs) {
-        outputs.push_back({{"option", output.option},
-                           {"ending", output.ending},
-                           {"head", output.head},
-                           {"between", output.between},
-                           {"tail", output.tail},
-                           {"part", output.part},
-                           {"targets", output.targets}});
-    }
-    return {{"voxtact_run", kManifestFormat}, {"chunks", manifest.chunks}, {"facts", facts}, {"outputs", outputs}};
-}
-
-std::string textOf(const RunManifest& manifest) {
-    Json body = bodyOf(manifest);
-    body["check"] = hashOf(dump(bodyOf(manifest)));
-    return dump(body, 1) + "\n";
-}
-
-/// Nothing where the text is not a manifest, or was changed.
-std::optional<RunManifest> manifestOf(const std::string& text) {
-    Json json = Json::parse(text, nullptr, false);
-    if (!json.is_object()) {
-        return std::nullopt;
-    }
-    const auto check = json.value("check", Json());
-    json.erase("check");
-    if (!check.is_string() || check.get<std::string>() != hashOf(dump(json)) ||
-        json.value("voxtact_run", Json()) != kManifestFormat) {
-        return std::nullopt;
-    }
-    // What has its check was written by textOf().
-    RunManifest manifest;
-    manifest.chunks = json["chunks"].get<std::uint64_t>();
-    for (const Json& fact : json["facts"]) {
-        manifest.facts.emplace_back(fact[0].get<std::string>(), fact[1].get<std::string>());
-    }
-    for (const Json& output : json["outputs"]) {
-        manifest.outputs.push_back({output["option"].get<std::string>(), output["ending"].get<std::string>(),
-                                    output["head"].get<std::string>(), output["between"].get<std::string>(),
-                                    output["tail"].get<std::string>(), output["part"].get<std::string>(),
-                                    output["targets"].get<std::vector<std::string>>()});
-    }
-    return manifest;
-}
-
-/// As it will be read: what a file of text cannot hold is replaced.
-RunManifest asWritten(const RunManifest& manifest) {
-    return manifestOf(textOf(manifest)).value_or(manifest);
 }
 
 /// Whether a file is one that may be there before there is a manifest.
@@ -156,6 +90,13 @@ void removeTemporaryFiles(const fs::path& folder) {
     }
 }
 
+Result<void> writeManifest(const fs::path& path, const RunManifest& manifest) {
+    return io::writeFile(path, [&](std::ostream& out) -> Result<void> {
+        out << manifest.text();
+        return {};
+    });
+}
+
 /// Puts the manifest there unless there is one: of two processes one is first.
 Result<void> place(const fs::path& folder, const RunManifest& manifest) {
     const fs::path target = folder / kManifestName;
@@ -166,10 +107,7 @@ Result<void> place(const fs::path& folder, const RunManifest& manifest) {
     // A name of our own: an OutputFile replaces what is there, a link does not.
     const fs::path own =
         folder / (std::string(kTemporaryName) + "-manifest-" + std::to_string(::getpid()) + "-" + manifest.id());
-    const Result<void> written = io::writeFile(own, [&](std::ostream& out) -> Result<void> {
-        out << textOf(manifest);
-        return {};
-    });
+    const Result<void> written = writeManifest(own, manifest);
     if (written.ok()) {
         fs::create_hard_link(own, target, problem);
         if (problem && problem != std::errc::file_exists) {
@@ -188,35 +126,30 @@ Result<void> place(const fs::path& folder, const RunManifest& manifest) {
                                     : cannotUse(folder, written.ok() ? problem.message() : written.error().text);
 }
 
-Result<RunManifest> readManifest(const fs::path& folder) {
+Result<ReadManifest> readManifest(const fs::path& folder) {
     const Result<std::string> text = io::readSmallFile(folder / kManifestName, kMostManifest);
     if (!text.ok()) {
         return cannotUse(folder / kManifestName, text.error().text);
     }
-    std::optional<RunManifest> manifest = manifestOf(*text);
-    if (!manifest) {
-        return Error{ErrorCode::Format, 0,
-                     "'" + (folder / kManifestName).string() +
-                         "' is damaged, or of another version of voxtact; begin anew with an empty folder"};
+    return readManifestText(*text);
+}
+
+Result<RunManifest> readWholeManifest(const fs::path& folder) {
+    Result<ReadManifest> read = readManifest(folder);
+    VOXTACT_TRY(read);
+    const std::string file = "'" + (folder / kManifestName).string() + "' is ";
+    switch (read->state) {
+    case ManifestState::Whole:
+        return std::move(read->manifest);
+    case ManifestState::OfAnotherVersion:
+        return Error{ErrorCode::Format, 0, file + "of another version of voxtact; begin anew with an empty folder"};
+    case ManifestState::Damaged:
+        break;
     }
-    return std::move(*manifest);
+    return Error{ErrorCode::Format, 0, file + "damaged; the command that made it writes it anew, and goes on"};
 }
 
 } // namespace
-
-std::string RunManifest::id() const {
-    return hashOf(dump(bodyOf({facts, {}, chunks})));
-}
-
-std::vector<const RunOutput*> RunManifest::outputsOf(const std::string& option) const {
-    std::vector<const RunOutput*> found;
-    for (const RunOutput& output : outputs) {
-        if (output.option == option) {
-            found.push_back(&output);
-        }
-    }
-    return found;
-}
 
 /// An flock() of a file, which the system lifts however the process ends.
 class RunFolder::Lock {
@@ -298,9 +231,9 @@ Result<void> RunFolder::lock(const std::optional<Shard>& shard) {
 }
 
 Result<RunFolder> RunFolder::join(const fs::path& path, const RunManifest& manifest) {
-    Result<RunManifest> there = readManifest(path);
+    Result<RunManifest> there = readWholeManifest(path);
     VOXTACT_TRY(there);
-    const RunManifest here = asWritten(manifest);
+    const RunManifest here = manifest.asWritten();
     if (const std::string difference = differenceOf(there->facts, here.facts); !difference.empty()) {
         return refuse("--resume: " + folderText(path) + " has another run: " + difference +
                       "; give another folder, or what it has");
@@ -312,10 +245,45 @@ Result<RunFolder> RunFolder::open(const fs::path& path, const RunManifest& manif
                                   const std::optional<Shard>& shard) {
     VOXTACT_TRY(prepare(path));
     VOXTACT_TRY(place(path, manifest));
+    const Result<ReadManifest> there = readManifest(path);
+    VOXTACT_TRY(there);
+    const bool damaged = there->state == ManifestState::Damaged;
+    if (damaged) {
+        VOXTACT_TRY(RunFolder(path, manifest.asWritten()).writeAnew());
+    }
     Result<RunFolder> folder = join(path, manifest);
     VOXTACT_TRY(folder);
+    folder->isWrittenAnew_ = damaged;
     VOXTACT_TRY(folder->lock(shard));
     return folder;
+}
+
+/// What there is tells whether the manifest that is lost was this one: a chunk's name has a hash of its run's facts.
+Result<void> RunFolder::writeAnew() const {
+    const Result<std::optional<Lock>> alone = Lock::take(path_, kLockName, true);
+    VOXTACT_TRY(alone);
+    if (!*alone) {
+        return cannotUse(path_, std::string("'") + kManifestName +
+                                    "' is damaged, and other processes are at work; wait for them, or stop them");
+    }
+    bool others = false;
+    bool ours = false;
+    std::error_code problem;
+    for (fs::directory_iterator entry(path_, problem), end; !problem && entry != end; entry.increment(problem)) {
+        const std::string name = entry->path().filename().string();
+        if (name == kManifestName || isPreparation(name)) {
+            continue;
+        }
+        const bool its = isChunk(name);
+        ours = ours || its;
+        others = others || !its;
+    }
+    if (others && !ours) {
+        return cannotUse(path_, std::string("'") + kManifestName +
+                                    "' is damaged, and no chunk there is of this command; give the one that made it, "
+                                    "or a new folder");
+    }
+    return writeManifest(path_ / kManifestName, manifest_);
 }
 
 Result<RunFolder> RunFolder::read(const fs::path& path) {
@@ -325,7 +293,7 @@ Result<RunFolder> RunFolder::read(const fs::path& path) {
         return Error{ErrorCode::File, 0,
                      "cannot merge " + folderText(path) + ": it is no folder of a run, as detect --resume makes it"};
     }
-    Result<RunManifest> manifest = readManifest(path);
+    Result<RunManifest> manifest = readWholeManifest(path);
     VOXTACT_TRY(manifest);
     return RunFolder(path, std::move(*manifest));
 }
@@ -336,6 +304,13 @@ fs::path RunFolder::chunkPath(std::uint64_t chunk, const RunOutput& output) cons
     std::string number = std::to_string(chunk);
     number.insert(0, number.size() < kDigits ? kDigits - number.size() : 0, '0');
     return path_ / (number + "-" + hashOf(id_ + " " + number).substr(0, kHash) + "." + output.name());
+}
+
+bool RunFolder::isChunk(const std::string& name) const {
+    std::uint64_t chunk = 0;
+    std::from_chars(name.data(), name.data() + name.size(), chunk);
+    return std::ranges::any_of(manifest_.outputs,
+                               [&](const RunOutput& output) { return chunkPath(chunk, output).filename() == name; });
 }
 
 std::string RunFolder::chunkLine(std::uint64_t chunk, const RunOutput& output) const {

@@ -3,7 +3,7 @@
 
 #include "app/chunks/chunk_cut.h"
 #include "app/chunks/chunk_options.h"
-#include "app/chunks/run_facts.h"
+#include "app/chunks/run_manifest.h"
 #include "app/chunks/sealed_file.h"
 
 #include <filesystem>
@@ -14,43 +14,14 @@
 /// The folder where a run in chunks comes together: a manifest, files of chunks, files that are locks.
 namespace voxtact::app {
 
-/// A file that a run makes: the head, then what its chunks have, with something between, then the tail. Several of one
-/// option are parts of one file, in their order.
-struct RunOutput {
-    std::string option; ///< that asks for it: "--output", "--triangles"
-    std::string ending; ///< that the file must have; empty: any
-    std::string head;
-    std::string between;
-    std::string tail;
-    std::string part{}; ///< of several of one option: a word for each
-    /// Not empty: as many files, of these targets in this order (target_path.h), each in a frame (frames.h).
-    std::vector<std::string> targets{};
-
-    /// "output", as the files of chunks end.
-    [[nodiscard]] std::string name() const { return option.substr(2) + (part.empty() ? "" : "-" + part); }
-    bool operator==(const RunOutput&) const = default;
-};
-
-/// What a run is.
-struct RunManifest {
-    RunFacts facts;
-    std::vector<RunOutput> outputs; ///< the table is the first
-    std::uint64_t chunks = 0;
-
-    /// All of an option, in their order; none: the run was not asked for it.
-    [[nodiscard]] std::vector<const RunOutput*> outputsOf(const std::string& option) const;
-
-    /// A hash of the facts: by it chunks know whose they are.
-    [[nodiscard]] std::string id() const;
-};
-
 enum class ChunkState { Missing, Whole, Damaged };
 
 /// Thread-safety: none; one thread at a time. Processes may share a folder.
 class RunFolder {
   public:
     /// Makes the folder, or goes on with it: refuses one that has something else, another run, or a shard that another
-    /// process is doing. It is locked while this lives.
+    /// process is doing. It is locked while this lives. A manifest that is damaged is written anew, unless all chunks
+    /// there are another run's.
     [[nodiscard]] static Result<RunFolder> open(const std::filesystem::path& path, const RunManifest& manifest,
                                                 const std::optional<Shard>& shard);
     /// The same without making or locking it: for a process whose leader has done that.
@@ -64,6 +35,8 @@ class RunFolder {
     /// The manifest that is in the folder.
     [[nodiscard]] const RunManifest& manifest() const noexcept { return manifest_; }
     [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
+    /// Whether open() found it damaged.
+    [[nodiscard]] bool isWrittenAnew() const noexcept { return isWrittenAnew_; }
 
     /// Where an output's part of a chunk is, and the first line of that file.
     [[nodiscard]] std::filesystem::path chunkPath(std::uint64_t chunk, const RunOutput& output) const;
@@ -80,11 +53,15 @@ class RunFolder {
 
     RunFolder(std::filesystem::path path, RunManifest manifest);
     [[nodiscard]] Result<void> lock(const std::optional<Shard>& shard);
+    [[nodiscard]] Result<void> writeAnew() const;
+    /// Whether a file is named as one of this run's chunks.
+    [[nodiscard]] bool isChunk(const std::string& name) const;
 
     std::filesystem::path path_;
     RunManifest manifest_;
     std::string id_;
     std::vector<Lock> locks_;
+    bool isWrittenAnew_ = false;
 };
 
 /// The chunks of a shard: neighbours, so that a volume is read by few. [first, end).
