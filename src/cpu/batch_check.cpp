@@ -38,6 +38,12 @@ Result<void> checkCertifiedBatch(const Batch& batch) {
     return {};
 }
 
+Result<void> checkCertifiedItem(const BatchItem& item, double threshold) {
+    VOXTACT_TRY(checkThreshold(threshold));
+    return checkBatchItem(rowOf(Projection::Conservative), DetectorDesc{}.samplesPerVoxel, item, "the item",
+                          HostSide{});
+}
+
 Result<void> checkThreads(std::uint32_t threads) {
     if (threads > kMostThreads) {
         return Error{ErrorCode::LimitExceeded, 0,

@@ -13,6 +13,9 @@ namespace voxtact::cpu {
 /// The same of a batch that is asked for what is certain of it, without a camera.
 [[nodiscard]] Result<void> checkCertifiedBatch(const Batch& batch);
 
+/// The same of an item alone.
+[[nodiscard]] Result<void> checkCertifiedItem(const BatchItem& item, double threshold);
+
 /// Refuses more than kMostThreads.
 [[nodiscard]] Result<void> checkThreads(std::uint32_t threads);
 

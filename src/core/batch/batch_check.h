@@ -61,6 +61,9 @@ template <class Item> Result<void> checkPoses(const Item& item, const std::strin
     return {};
 }
 
+} // namespace detail
+
+/// One of a batch's items, which errors call `which`.
 template <class Item, class Side>
 Result<void> checkBatchItem(const ProjectionRow& projection, std::uint32_t samplesPerVoxel, const Item& item,
                             const std::string& which, const Side& side) {
@@ -68,7 +71,7 @@ Result<void> checkBatchItem(const ProjectionRow& projection, std::uint32_t sampl
         return refuse(which + ": mesh, volume or transferFunction is null");
     }
     VOXTACT_TRY(side.checkItem(item, which));
-    VOXTACT_TRY(checkPoses(item, which));
+    VOXTACT_TRY(detail::checkPoses(item, which));
     if (!projection.certified && !side.holdsValues(item)) {
         return refuse(which + ": single precision cannot hold the volume's values in the transfer function's domain; "
                               "the projection conservative says what can be said");
@@ -80,8 +83,6 @@ Result<void> checkBatchItem(const ProjectionRow& projection, std::uint32_t sampl
     }
     return {};
 }
-
-} // namespace detail
 
 /// Refuses null objects, poses and cameras that are not finite or not affine, a singular camera, a viewport of 0, a
 /// threshold outside [0,1], more pairs than 32 bits can number, values that floats do not hold, and what the side
@@ -99,7 +100,7 @@ Result<std::uint32_t> checkBatch(Projection projection, std::uint32_t samplesPer
     for (std::size_t i = 0; i < batch.items.size(); ++i) {
         const auto& item = batch.items[i];
         static_assert(BatchSide<Side, std::remove_cvref_t<decltype(item)>>);
-        VOXTACT_TRY(detail::checkBatchItem(row, samplesPerVoxel, item, "batch item " + std::to_string(i), side));
+        VOXTACT_TRY(checkBatchItem(row, samplesPerVoxel, item, "batch item " + std::to_string(i), side));
         pairs += detail::pairsOf(item);
     }
     if (pairs > std::numeric_limits<std::uint32_t>::max()) {

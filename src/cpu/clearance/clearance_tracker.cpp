@@ -139,7 +139,7 @@ Result<ClearanceTracker> ClearanceTracker::create(const TrackerDesc& desc) {
 
 Result<TrackedClearance> ClearanceTracker::track(const BatchItem& item, double threshold) {
     return guard([&]() -> Result<TrackedClearance> {
-        VOXTACT_TRY(checkCertifiedBatch({std::span(&item, 1), {}, threshold}));
+        VOXTACT_TRY(checkCertifiedItem(item, threshold));
         if (item.world_from_object.size() != 1) {
             return refuse("a tracker takes one pose at a time, not " + std::to_string(item.world_from_object.size()));
         }

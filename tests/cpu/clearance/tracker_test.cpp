@@ -192,6 +192,7 @@ TEST(Tracker, LooksNoFartherThanAsked) {
 
 TEST(Tracker, RefusesWhatCannotBe) {
     using testing::HasSubstr;
+    using testing::StartsWith;
     for (const double maximum : {0.0, -1.0, std::nan("")}) {
         const auto refused = cpu::ClearanceTracker::create({.maximum = maximum});
         ASSERT_FALSE(refused.ok());
@@ -210,7 +211,9 @@ TEST(Tracker, RefusesWhatCannotBe) {
     EXPECT_FALSE(tracker.track({nullptr, &scene.volume, &scene.function, std::span(two).first(1)}, 0.5).ok());
     Mat4 bad = identity();
     bad[13] = std::nan("");
-    EXPECT_FALSE(tracker.track(scene.at(bad), 0.5).ok());
+    const auto notFinite = tracker.track(scene.at(bad), 0.5);
+    ASSERT_FALSE(notFinite.ok());
+    EXPECT_THAT(notFinite.error().text, StartsWith("the item, pose 0")) << "there is no batch";
     EXPECT_FALSE(tracker.track(scene.at(two[0]), 1.5).ok());
 }
 
