@@ -39,7 +39,9 @@ void readMethods(const std::string& list, std::vector<CountingMethod>& methods) 
         if (!method) {
             throw CLI::ValidationError("--methods", "'" + name + "' is not known; there are: " + methodNames());
         }
-        methods.push_back(*method);
+        if (std::find(methods.begin(), methods.end(), *method) == methods.end()) {
+            methods.push_back(*method);
+        }
     }
     if (methods.empty()) {
         throw CLI::ValidationError("--methods", "no method; there are: " + methodNames());

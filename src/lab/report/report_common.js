@@ -24,6 +24,7 @@ const report = (() => {
   }
 
   const grouped = (value) => Math.round(value).toLocaleString('en-US');
+  const counted = (count, one) => `${grouped(count)} ${one}${count === 1 ? '' : 's'}`;
   function short(value) {
     if (value === null || value === undefined) return '–';
     if (value === 0) return '0';
@@ -340,6 +341,6 @@ const report = (() => {
   }
 
   Chart.defaults.font.family = 'system-ui, "Segoe UI", "DejaVu Sans", sans-serif';
-  return { data, byId, element, look, grouped, short, words, numbers, fillTable, fillAbout, fillMachine, fillSeries,
+  return { data, byId, element, look, grouped, counted, short, words, numbers, fillTable, fillAbout, fillMachine, fillSeries,
     toDataset, linesOf, ticksOf, addPair, drawChart, drawBarChart, drawBatches, drawSweep };
 })();

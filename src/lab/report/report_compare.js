@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 'use strict';
 (() => {
-  const { data, byId, element, grouped, short, words, numbers, fillTable, fillAbout, fillMachine, fillSeries, drawBatches,
+  const { data, byId, element, grouped, counted, short, words, numbers, fillTable, fillAbout, fillMachine, fillSeries, drawBatches,
     drawSweep } = report;
   const scene = data.scene;
 
@@ -10,7 +10,7 @@
     byId('title').textContent = `${source(scene.mesh)} against ${source(scene.volume)}, by every method`;
     document.title = `voxtact compare: ${source(scene.mesh)} against ${source(scene.volume)}`;
     byId('subtitle').textContent =
-      `${grouped(scene.poses)} poses (${scene.poses_from}), ${grouped(scene.triangles)} triangles, ` +
+      `${counted(scene.poses, 'pose')} (${scene.poses_from}), ${counted(scene.triangles, 'triangle')}, ` +
       `${scene.voxels.join(' × ')} voxels of ${scene.voxel_type}, ${scene.width} × ${scene.height} pixels, ` +
       `opaque from ${scene.threshold}`;
   }

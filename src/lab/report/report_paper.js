@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 'use strict';
 (() => {
-  const { data, byId, element, look, grouped, short, words, numbers, fillTable, fillAbout, fillMachine, fillSeries,
+  const { data, byId, element, look, grouped, counted, short, words, numbers, fillTable, fillAbout, fillMachine, fillSeries,
     drawBarChart, drawChart, drawSweep, linesOf, ticksOf, addPair, toDataset } = report;
   const clocks = [
     { key: 'gpu', name: 'by GPU timestamps', text: 'Time on the device.' },
@@ -155,7 +155,7 @@
     const parent = byId('polygons');
     if (!data.polygons || data.polygons.ways.length === 0) return;
     parent.appendChild(element('h2', 'Which triangles touch'));
-    parent.appendChild(element('p', `In ${names[0]}, of ${grouped(data.polygons.triangles)} triangles, on ${data.polygons.poses} poses together: the paper's one query a polygon and one ` +
+    parent.appendChild(element('p', `In ${names[0]}, of ${counted(data.polygons.triangles, 'triangle')}, on ${counted(data.polygons.poses, 'pose')} together: the paper's one query a polygon and one ` +
       'query a leaf of an OBB tree, one pass that writes a mask, and the certified answer, against which the others are held.', 'muted'));
     const table = element('table');
     parent.appendChild(table);
