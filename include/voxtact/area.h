@@ -54,6 +54,23 @@ struct LabelArea {
     AreaEnd end{};          ///< why they are no nearer to each other
 };
 
+/// The contact area of one triangle of a pair.
+struct TriangleArea {
+    std::uint32_t pair = 0;     ///< number of the pair in its batch
+    std::uint32_t item = 0;     ///< number of the BatchItem that the pair came from
+    std::uint32_t pose = 0;     ///< number of the pose within that item
+    std::uint32_t triangle = 0; ///< number in the mesh
+    double whole = 0;           ///< mm^2: the area of all of it, at its pose, rounded; infinite where `hi` is
+    AreaBounds bounds;          ///< mm^2
+};
+
+/// What a batch gave triangle by triangle.
+struct TriangleAreaAnswer {
+    std::vector<PairArea> pairs;         ///< in the order of the batch, as AreaAnswer has them
+    std::vector<TriangleArea> triangles; ///< those that may have an area, by pair, then by number
+    double wallMilliseconds = 0;         ///< of the whole call
+};
+
 /// What a batch gave for some labels.
 struct LabelAreaAnswer {
     std::vector<LabelArea> labels; ///< by pair, then in the order that the labels were asked for

@@ -44,14 +44,27 @@ typedef struct vxt_label_area {
     uint32_t reserved; ///< 0
 } vxt_label_area;
 
+/// The contact area of one triangle of a pair: voxtact::TriangleArea.
+typedef struct vxt_triangle_area {
+    double lo;         ///< mm^2
+    double hi;         ///< mm^2
+    double whole;      ///< mm^2: the area of all of it, at its pose
+    uint32_t pair;     ///< number in the batch
+    uint32_t item;     ///< number of the item
+    uint32_t pose;     ///< number of the pose in the item
+    uint32_t triangle; ///< number in the mesh
+} vxt_triangle_area;
+
 /// The arrays of areas, where they are.
 typedef struct vxt_area_view {
-    size_t struct_size;           ///< sizeof
-    const vxt_pair_area* pairs;   ///< in the order of the batch
-    size_t pair_count;            ///< of `pairs`
-    const vxt_label_area* labels; ///< by pair, then in the order that they were asked for
-    size_t label_count;           ///< of `labels`
-    double wall_milliseconds;     ///< of the call
+    size_t struct_size;                 ///< sizeof
+    const vxt_pair_area* pairs;         ///< in the order of the batch
+    size_t pair_count;                  ///< of `pairs`
+    const vxt_label_area* labels;       ///< by pair, then in the order that they were asked for
+    size_t label_count;                 ///< of `labels`
+    double wall_milliseconds;           ///< of the call
+    const vxt_triangle_area* triangles; ///< those that may have an area, by pair, then by number
+    size_t triangle_count;              ///< of `triangles`
 } vxt_area_view;
 
 /// What an area meter is made for.
@@ -100,6 +113,9 @@ VXT_CHECKED vxt_result vxt_host_area_meter_create(const vxt_host_area_desc* desc
 /// The contact area of every pair.
 VXT_CHECKED vxt_result vxt_host_area_meter_measure(vxt_host_area_meter* meter, const vxt_host_batch* batch,
                                                    vxt_areas* areas);
+/// The same, and what each triangle has of it.
+VXT_CHECKED vxt_result vxt_host_area_meter_measure_triangles(vxt_host_area_meter* meter, const vxt_host_batch* batch,
+                                                             vxt_areas* areas);
 /// The contact area of every pair in each label's part of what is opaque. Every item needs labels, on its volume's
 /// grid.
 VXT_CHECKED vxt_result vxt_host_area_meter_measure_labels(vxt_host_area_meter* meter, const vxt_host_batch* batch,

@@ -14,6 +14,7 @@ using namespace voxtact::c;
 struct vxt_areas {
     std::vector<vxt_pair_area> pairs;
     std::vector<vxt_label_area> labels;
+    std::vector<vxt_triangle_area> triangles;
     double wallMilliseconds = 0;
 };
 
@@ -46,6 +47,11 @@ vxt_label_area toLabelArea(const LabelArea& label) noexcept {
             0};
 }
 
+vxt_triangle_area toTriangleArea(const TriangleArea& triangle) noexcept {
+    return {triangle.bounds.lo, triangle.bounds.hi, triangle.whole,   triangle.pair,
+            triangle.item,      triangle.pose,      triangle.triangle};
+}
+
 } // namespace
 
 const char* vxt_area_end_name(vxt_area_end end) {
@@ -63,6 +69,7 @@ vxt_result vxt_areas_get(const vxt_areas* areas, vxt_area_view* view) {
         out.pairs = handOut<vxt_pair_area>(from.pairs, &out.pair_count);
         out.labels = handOut<vxt_label_area>(from.labels, &out.label_count);
         out.wall_milliseconds = from.wallMilliseconds;
+        out.triangles = handOut<vxt_triangle_area>(from.triangles, &out.triangle_count);
         writeStruct(view, out, "view");
     });
 }
@@ -84,6 +91,21 @@ vxt_result vxt_host_area_meter_measure(vxt_host_area_meter* meter, const vxt_hos
         vxt_areas out;
         out.wallMilliseconds = answer.wallMilliseconds;
         std::ranges::transform(answer.pairs, std::back_inserter(out.pairs), toArea);
+        to = std::move(out);
+    });
+}
+
+vxt_result vxt_host_area_meter_measure_triangles(vxt_host_area_meter* meter, const vxt_host_batch* batch,
+                                                 vxt_areas* areas) {
+    return call([&] {
+        cpu::AreaMeter& by = need(meter, "meter").object;
+        vxt_areas& to = need(areas, "areas");
+        const HostBatchOf of(batch, vxt_host_batch_init(), vxt_host_item_init());
+        const TriangleAreaAnswer answer = take(by.measureTriangles(of.batch()));
+        vxt_areas out;
+        out.wallMilliseconds = answer.wallMilliseconds;
+        std::ranges::transform(answer.pairs, std::back_inserter(out.pairs), toArea);
+        std::ranges::transform(answer.triangles, std::back_inserter(out.triangles), toTriangleArea);
         to = std::move(out);
     });
 }

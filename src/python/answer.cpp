@@ -165,6 +165,14 @@ void Areas::add(const AreaAnswer& piece) {
     addBounds(piece.pairs, piece.wallMilliseconds, *this);
 }
 
+void Areas::add(const TriangleAreaAnswer& piece) {
+    const auto first = static_cast<std::uint32_t>(lo.size());
+    addBounds(piece.pairs, piece.wallMilliseconds, *this);
+    for (const TriangleArea& area : piece.triangles) {
+        triangles.push_back({first + area.pair, area.triangle, area.whole, area.bounds.lo, area.bounds.hi});
+    }
+}
+
 void Areas::add(const LabelAreaAnswer& piece) {
     addBounds(piece.labels, piece.wallMilliseconds, *this);
 }
@@ -175,6 +183,7 @@ void defineAnswers(py::module_& module) {
     PYBIND11_NUMPY_DTYPE(LabelCount, pair, label, count);
     PYBIND11_NUMPY_DTYPE_EX(ClosestRow, triangle, "triangle", mesh, "mesh", volume, "volume", perTranslation,
                             "per_translation", perRotation, "per_rotation");
+    PYBIND11_NUMPY_DTYPE(TriangleAreaRow, pair, triangle, whole, lo, hi);
 
     // Each array shows the answer's own memory, and keeps the answer.
     const auto column = [](auto member, auto show) {
@@ -210,7 +219,10 @@ void defineAnswers(py::module_& module) {
     defineMeasured<Clearances>(module, "Clearances").def_property_readonly("closest", [](const py::object& self) {
         return shown(self.cast<const Clearances&>().closest, self);
     });
-    defineMeasured<Areas>(module, "Areas");
+    defineMeasured<Areas>(module, "Areas")
+        .def_readonly("by_triangle", &Areas::byTriangle)
+        .def_property_readonly("triangles",
+                               [](const py::object& self) { return shown(self.cast<const Areas&>().triangles, self); });
 }
 
 } // namespace voxtact::python

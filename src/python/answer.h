@@ -69,9 +69,22 @@ struct Clearances : Measured {
     void add(const LabelClearanceAnswer& piece);
 };
 
+/// A row of Areas::triangles.
+struct TriangleAreaRow {
+    std::uint32_t pair; ///< of the request
+    std::uint32_t triangle;
+    double whole;
+    double lo;
+    double hi;
+};
+
 /// Contact areas of a request.
 struct Areas : Measured {
+    bool byTriangle = false;
+    std::vector<TriangleAreaRow> triangles;
+
     void add(const AreaAnswer& piece);
+    void add(const TriangleAreaAnswer& piece);
     void add(const LabelAreaAnswer& piece);
 };
 

@@ -175,6 +175,13 @@ AreaAnswer HostSide::measure(const Part& part, const Extent& extent, double thre
                          [&](const cpu::Batch& batch) { return take(meter.measure(batch)); });
 }
 
+TriangleAreaAnswer HostSide::measureTriangles(const Part& part, const Extent& extent, double threshold) {
+    cpu::AreaMeter& meter = meterFor(extent);
+    const std::vector<cpu::BatchItem> items = itemsOf(part, nullptr);
+    return interruptibly(cpu::Batch{items, {}, threshold},
+                         [&](const cpu::Batch& batch) { return take(meter.measureTriangles(batch)); });
+}
+
 LabelAreaAnswer HostSide::measureLabels(const Part& part, const Extent& extent, double threshold,
                                         const LabelData* labels, const std::vector<std::int32_t>& wanted) {
     cpu::AreaMeter& meter = meterFor(extent);

@@ -38,6 +38,7 @@ class HostSide {
     [[nodiscard]] LabelClearanceAnswer measureLabels(const Part& part, const Distance& distance, double threshold,
                                                      const LabelData* labels, const std::vector<std::int32_t>& asked);
     [[nodiscard]] AreaAnswer measure(const Part& part, const Extent& extent, double threshold);
+    [[nodiscard]] TriangleAreaAnswer measureTriangles(const Part& part, const Extent& extent, double threshold);
     [[nodiscard]] LabelAreaAnswer measureLabels(const Part& part, const Extent& extent, double threshold,
                                                 const LabelData* labels, const std::vector<std::int32_t>& asked);
     [[nodiscard]] BatchAnswer within(const Part& part, double margin, double threshold);

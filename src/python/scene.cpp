@@ -244,11 +244,13 @@ std::shared_ptr<Clearances> Scene::labelClearance(std::shared_ptr<const Request>
 }
 
 std::shared_ptr<Areas> Scene::area(std::shared_ptr<const Request> request, const Extent& extent,
-                                   std::optional<std::vector<std::int32_t>> labels, const Progress& progress) {
+                                   std::optional<std::vector<std::int32_t>> labels, bool byTriangle,
+                                   const Progress& progress) {
     const Turns::Turn turn(turns_);
     checkOpen();
     HostSide& side = host();
     auto found = std::make_shared<Areas>();
+    found->byTriangle = byTriangle;
     found->request = request;
     found->byLabel = labels.has_value();
     found->labels = labels ? std::move(*labels) : std::vector<std::int32_t>();
@@ -257,6 +259,8 @@ std::shared_ptr<Areas> Scene::area(std::shared_ptr<const Request> request, const
                  const Part part{*request, first, count};
                  if (found->byLabel) {
                      found->add(side.measureLabels(part, extent, desc_.threshold, desc_.labels.get(), found->labels));
+                 } else if (byTriangle) {
+                     found->add(side.measureTriangles(part, extent, desc_.threshold));
                  } else {
                      found->add(side.measure(part, extent, desc_.threshold));
                  }

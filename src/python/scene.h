@@ -55,9 +55,9 @@ class Scene {
     [[nodiscard]] std::shared_ptr<Clearances> labelClearance(std::shared_ptr<const Request> request,
                                                              const Distance& distance, std::vector<std::int32_t> labels,
                                                              const Progress& progress);
-    /// `labels`: in each of these.
+    /// `labels`: in each of these; `byTriangle`: and what each triangle has of it, without labels.
     [[nodiscard]] std::shared_ptr<Areas> area(std::shared_ptr<const Request> request, const Extent& extent,
-                                              std::optional<std::vector<std::int32_t>> labels,
+                                              std::optional<std::vector<std::int32_t>> labels, bool byTriangle,
                                               const Progress& progress);
     /// By the host, or by the device of a scene that has one.
     [[nodiscard]] std::shared_ptr<Answer> within(const std::shared_ptr<const Request>& request, double margin,

@@ -173,12 +173,12 @@ std::shared_ptr<Clearances> clearanceByDevice(Scene& scene, const py::object& me
 }
 
 std::shared_ptr<Areas> area(Scene& scene, const py::object& meshes, const py::object& poses, double tolerance,
-                            std::uint64_t mostSteps, std::optional<std::vector<std::int32_t>> labels,
+                            std::uint64_t mostSteps, std::optional<std::vector<std::int32_t>> labels, bool byTriangle,
                             const py::object& callback) {
     const auto request = std::make_shared<const Request>(requestOf(meshes, poses));
     const Progress progress = progressOf(callback, request->pairs);
     const Unlocked unlocked;
-    return scene.area(request, {tolerance, mostSteps}, std::move(labels), progress);
+    return scene.area(request, {tolerance, mostSteps}, std::move(labels), byTriangle, progress);
 }
 
 std::shared_ptr<Answer> within(Scene& scene, const py::object& meshes, const py::object& poses, double margin,
@@ -263,7 +263,7 @@ void defineScene(py::module_& module) {
         .def("clearance_by_device", &clearanceByDevice, py::arg("meshes"), py::arg("poses"), py::arg("tolerance"),
              py::arg("maximum"), py::arg("labels"), py::arg("labels_at_any_opacity"), py::arg("progress"))
         .def("area", &area, py::arg("meshes"), py::arg("poses"), py::arg("tolerance"), py::arg("most_steps"),
-             py::arg("labels"), py::arg("progress"))
+             py::arg("labels"), py::arg("by_triangle"), py::arg("progress"))
         .def("within", &within, py::arg("meshes"), py::arg("poses"), py::arg("margin"), py::arg("by_device"),
              py::arg("progress"))
         .def("motion", &motion, py::arg("meshes"), py::arg("poses"), py::arg("interpolation"), py::arg("resolution"),

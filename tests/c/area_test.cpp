@@ -28,13 +28,16 @@ Owned<vxt_host_area_meter> newMeter(const vxt_host_area_desc* desc) {
                                      [&](auto out) { return vxt_host_area_meter_create(desc, out); });
 }
 
-/// What PairArea and LabelArea have in common.
+/// What areas of pairs, labels and triangles have in common.
 template <class C, class Cpp> void expectSame(const C& c, const Cpp& cpp) {
     EXPECT_EQ(c.lo, cpp.bounds.lo);
     EXPECT_EQ(c.hi, cpp.bounds.hi);
     EXPECT_EQ(c.pair, cpp.pair);
     EXPECT_EQ(c.item, cpp.item);
     EXPECT_EQ(c.pose, cpp.pose);
+}
+template <class C, class Cpp> void expectSameEnd(const C& c, const Cpp& cpp) {
+    expectSame(c, cpp);
     EXPECT_STREQ(vxt_area_end_name(c.end), toString(cpp.end));
 }
 
@@ -70,9 +73,23 @@ TEST(CArea, IsWhatTheCppInterfaceSays) {
         EXPECT_EQ(view.label_count, 0U);
         EXPECT_GE(view.wall_milliseconds, 0);
         for (std::size_t i = 0; i < pairs.size(); ++i) {
-            expectSame(view.pairs[i], pairs[i]);
+            expectSameEnd(view.pairs[i], pairs[i]);
             touching += pairs[i].bounds.lo > 0 ? 1 : 0;
             budget += pairs[i].end == AreaEnd::Budget ? 1 : 0;
+        }
+
+        need(vxt_host_area_meter_measure_triangles(meter.get(), &c.batch, areas.get()));
+        const std::vector<TriangleArea> triangles = take(cpp.measureTriangles(batch)).triangles;
+        view = viewOf(*areas);
+        ASSERT_EQ(view.triangle_count, triangles.size());
+        ASSERT_EQ(view.pair_count, pairs.size());
+        for (std::size_t i = 0; i < pairs.size(); ++i) {
+            expectSameEnd(view.pairs[i], pairs[i]);
+        }
+        for (std::size_t i = 0; i < triangles.size(); ++i) {
+            expectSame(view.triangles[i], triangles[i]);
+            EXPECT_EQ(view.triangles[i].triangle, triangles[i].triangle);
+            EXPECT_EQ(view.triangles[i].whole, triangles[i].whole);
         }
 
         const std::vector<std::int32_t> asked{2, 0, 12345};
@@ -81,8 +98,9 @@ TEST(CArea, IsWhatTheCppInterfaceSays) {
         view = viewOf(*areas);
         ASSERT_EQ(view.label_count, labels.size());
         EXPECT_EQ(view.pair_count, 0U);
+        EXPECT_EQ(view.triangle_count, 0U);
         for (std::size_t i = 0; i < labels.size(); ++i) {
-            expectSame(view.labels[i], labels[i]);
+            expectSameEnd(view.labels[i], labels[i]);
             EXPECT_EQ(view.labels[i].label, labels[i].label);
             EXPECT_EQ(view.labels[i].reserved, 0U);
             labelled += labels[i].bounds.lo > 0 ? 1 : 0;
@@ -129,6 +147,9 @@ TEST(CArea, RefusesNullAndWhatTheCppInterfaceRefuses) {
     EXPECT_EQ(text(vxt_host_area_meter_measure_labels(meter.get(), &batch, nullptr, 1, areas.get())), "labels is null");
     EXPECT_EQ(text(vxt_host_area_meter_measure_labels(nullptr, &batch, nullptr, 0, areas.get())), "meter is null");
     EXPECT_EQ(text(vxt_host_area_meter_measure_labels(meter.get(), &batch, nullptr, 0, nullptr)), "areas is null");
+    EXPECT_EQ(text(vxt_host_area_meter_measure_triangles(nullptr, &batch, areas.get())), "meter is null");
+    EXPECT_EQ(text(vxt_host_area_meter_measure_triangles(meter.get(), nullptr, areas.get())), "batch is null");
+    EXPECT_EQ(text(vxt_host_area_meter_measure_triangles(meter.get(), &batch, nullptr)), "areas is null");
     vxt_area_view view = vxt_area_view_init();
     EXPECT_EQ(text(vxt_areas_get(nullptr, &view)), "areas is null");
     EXPECT_EQ(text(vxt_areas_get(areas.get(), nullptr)), "view is null");

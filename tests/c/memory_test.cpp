@@ -176,23 +176,26 @@ TEST_F(Memory, OfAreas) {
         vxt_host_area_meter* meter = nullptr;
         const Owned<vxt_areas> out = made<vxt_areas>(vxt_areas_destroy, [](auto o) { return vxt_areas_create(o); });
         const std::int32_t asked[] = {1, 3};
-        for (const bool byLabel : {false, true}) {
+        for (const char* const what : {"area", "area by label", "area by triangle"}) {
+            const bool byLabel = std::string_view(what) == "area by label";
+            const bool byTriangle = std::string_view(what) == "area by triangle";
             const auto ask = [&] {
                 vxt_host_area_meter_destroy(meter);
                 const vxt_result ready = vxt_host_area_meter_create(&desc, &meter);
                 return ready != VXT_OK ? ready
                        : byLabel       ? vxt_host_area_meter_measure_labels(meter, &c_.batch, asked, 2, out.get())
+                       : byTriangle    ? vxt_host_area_meter_measure_triangles(meter, &c_.batch, out.get())
                                        : vxt_host_area_meter_measure(meter, &c_.batch, out.get());
             };
             const auto measured = [&] {
                 vxt_area_view view = vxt_area_view_init();
                 need(vxt_areas_get(out.get(), &view));
-                return byLabel ? view.labels[1].hi : view.pairs[0].hi;
+                return byLabel ? view.labels[1].hi : byTriangle ? view.triangles[0].hi : view.pairs[0].hi;
             };
             need(ask());
             const double expected = measured();
             EXPECT_TRUE(byLabel || expected > 0);
-            expectTight(byLabel ? "area by label" : "area", ask, [&] { EXPECT_EQ(measured(), expected); });
+            expectTight(what, ask, [&] { EXPECT_EQ(measured(), expected); });
         }
         vxt_host_area_meter_destroy(meter);
     }

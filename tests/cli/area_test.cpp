@@ -2,6 +2,7 @@
 // voxtact detect --area.
 #include "cli_fixture.h"
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 
@@ -159,6 +160,39 @@ TEST_F(AreaTest, WritesTheAreaInEachLabel) {
     EXPECT_EQ(rowsOf(readText(path("none.csv")))[0].at("area_hi"), "0");
 }
 
+TEST_F(AreaTest, WritesTheAreaOfEachTriangle) {
+    const Rows table = rows({"--area", "--triangle-area", path("triangles.csv"), "--answer", "yes-no"});
+    EXPECT_EQ(linesOf(readText(path("triangles.csv"))).at(0),
+              "pose,mesh,volume,triangle,triangle_area,area_lo,area_hi");
+    std::array<double, 2> lo{};
+    std::array<double, 2> hi{};
+    std::size_t partly = 0;
+    const Rows triangles = rowsOf(readText(path("triangles.csv")));
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        const std::size_t pose = std::stoul(triangles[i].at("pose"));
+        ASSERT_LT(pose, 2U) << "the others touch nothing";
+        lo.at(pose) += loOf(triangles, i);
+        hi.at(pose) += hiOf(triangles, i);
+        const double whole = std::stod(triangles[i].at("triangle_area"));
+        EXPECT_LE(loOf(triangles, i), whole + 1e-6);
+        EXPECT_LT(std::stoul(triangles[i].at("triangle")), 300U);
+        EXPECT_EQ(triangles[i].at("mesh"), "builtin:scalpel:300");
+        partly += loOf(triangles, i) > 0 && hiOf(triangles, i) < whole ? 1 : 0;
+    }
+    EXPECT_GT(partly, 3U);
+    for (std::size_t pose = 0; pose < 2; ++pose) {
+        const double rounding = 1e-6 * static_cast<double>(triangles.size());
+        EXPECT_NEAR(lo.at(pose), loOf(table, pose), rounding);
+        EXPECT_NEAR(hi.at(pose), hiOf(table, pose), rounding);
+    }
+    EXPECT_EQ(output(detect({"--area", "--answer", "yes-no", "--triangle-area", path("again.csv"), "--resume",
+                             path("run"), "--chunk", "1"})),
+              output(detect({"--area", "--answer", "yes-no"})));
+    EXPECT_EQ(readText(path("again.csv")), readText(path("triangles.csv")));
+    output({"merge", path("run"), "--triangle-area", path("merged.csv")});
+    EXPECT_EQ(readText(path("merged.csv")), readText(path("triangles.csv")));
+}
+
 TEST_F(AreaTest, IsTheSameInChunks) {
     output({"make", "volume", "builtin:head:32", path("labels.nii.gz")});
     const Arguments asked{"--area", "--labels", path("labels.nii.gz"), "--to", "70,120", "--count", "cpu"};
@@ -184,6 +218,8 @@ TEST_F(AreaTest, RefusesWhatDoesNotGoTogether) {
                 HasSubstr("--area-tolerance: it is about areas, and --area is not given"));
     EXPECT_THAT(refused(2, detect({"--label-area", path("a.csv")})),
                 HasSubstr("--label-area: it is about areas, and --area is not given"));
+    EXPECT_THAT(refused(2, detect({"--triangle-area", path("a.csv")})),
+                HasSubstr("--triangle-area: it is about areas, and --area is not given"));
     EXPECT_THAT(refused(2, detect({"--area", "--label-area", path("a.csv")})),
                 HasSubstr("--label-area: it is about labels, and --labels is not given"));
     EXPECT_THAT(

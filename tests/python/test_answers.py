@@ -35,7 +35,8 @@ def answers(labelled, knife):
     return [labelled.detect([(knife, poses[:4]), (knife, poses[4:])], triangles=True, contacts=True, bounds=True, labels=True),
             labelled.clearance(knife, poses), labelled.clearance(knife, poses, labels=["Skull", 70]),
             labelled.motion(knife, poses), labelled.plan((20, 0, 30), avoid=["Skull"], entries=100, triangle_clearances=True),
-            labelled.area(knife, poses), labelled.area(knife, poses, labels=["Skull", 70])]
+            labelled.area(knife, poses), labelled.area(knife, poses, labels=["Skull", 70]),
+            labelled.area(knife, poses, triangles=True)]
 
 
 def same(a, b):
@@ -57,6 +58,10 @@ def test_a_copy_is_the_same(answers, way):
             for name in MEMBERS[type(answer)]:
                 same(getattr(found, name), getattr(answer, name))
     same(way(answers[1]).closest, answers[1].closest)
+    same(way(answers[7]).triangles, answers[7].triangles)
+    for area in (answers[5], way(answers[6])):
+        with pytest.raises(vx.NotReadyError, match="triangles=True"):
+            area.triangles
     with pytest.raises(vx.NotReadyError, match="no closest points"):
         way(answers[2]).closest
     plan = answers[4]

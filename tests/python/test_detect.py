@@ -275,6 +275,18 @@ def test_bounds_of_areas(scene, knife):
     surface = np.linalg.norm(np.cross(faces[:, 1] - faces[:, 0], faces[:, 2] - faces[:, 0]), axis=1).sum() / 2
     assert tight.lo[0] < surface
     assert scene.area(knife, placed((1000, 0, 0))).hi.tolist() == [0]
+    poses = np.stack([inside, placed((1000, 0, 0)), placed((0, 0, 20))])
+    found = scene.area([(knife, poses[:2]), (knife, poses[2:])], triangles=True)
+    np.testing.assert_array_equal(found.lo, scene.area(knife, poses).lo)
+    parts = found.triangles
+    assert set(parts["pair"]) == {0, 2} and (np.diff(parts["pair"].astype(int)) >= 0).all()
+    for pair in (0, 2):
+        own = parts[parts["pair"] == pair]
+        np.testing.assert_allclose([own["lo"].sum(), own["hi"].sum()], [found.lo[pair], found.hi[pair]], rtol=1e-9)
+        areas = np.linalg.norm(np.cross(faces[:, 1] - faces[:, 0], faces[:, 2] - faces[:, 0]), axis=1)[own["triangle"]] / 2
+        np.testing.assert_allclose(own["whole"], areas, rtol=1e-5, atol=1e-9)
+    with pytest.raises(vx.InvalidArgumentError, match="in labels or of triangles"):
+        scene.area(knife, inside, labels=[1], triangles=True)
     for wrong in (0, -1, np.nan, np.inf):
         with pytest.raises(vx.InvalidArgumentError, match="tolerance"):
             scene.area(knife, inside, tolerance=wrong)

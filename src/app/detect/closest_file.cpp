@@ -25,15 +25,24 @@ std::string joined(const Vec3& vector, char between) {
     return rounded(vector[0]) + between + rounded(vector[1]) + between + rounded(vector[2]);
 }
 
-/// What was measured of one label.
+/// What was measured of a part of a pair; `part`: which one.
 template <class Bounds>
-void writeLabelBounds(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs, const Row& row,
-                      std::int32_t label, const Bounds& bounds) {
+void writeBounds(std::ostream& out, const DetectOptions& options, const Row& row, const std::string& part,
+                 const Bounds& bounds) {
     const PairJobs& jobs = options.jobs;
     const Job& job = jobs.jobs[row.job];
     out << row.pose << ',' << io::csvField(jobs.meshes[job.mesh]) << ',' << io::csvField(jobs.volumes[job.volume])
-        << ',' << label << ',' << io::csvField(labelName(inputs, label)) << ',' << number(bounds.lo) << ','
-        << number(bounds.hi) << (jobs.fromFile ? "," + std::to_string(row.job) : "") << '\n';
+        << ',' << part << ',' << number(bounds.lo) << ',' << number(bounds.hi)
+        << (jobs.fromFile ? "," + std::to_string(row.job) : "") << '\n';
+}
+
+std::string labelPart(const DetectInputs& inputs, std::int32_t label) {
+    return std::to_string(label) + ',' + io::csvField(labelName(inputs, label));
+}
+
+/// Parts of a mm^2: more digits say nothing.
+double areaParts(double tolerance) {
+    return std::max(kParts, std::pow(10, std::ceil(2 - std::log10(tolerance))));
 }
 
 std::int32_t labelOf(const DetectInputs& inputs, const Vec3& world) {
@@ -99,7 +108,7 @@ ClearanceBounds roundedOutward(const ClearanceBounds& bounds) {
 }
 
 AreaBounds roundedOutward(const AreaBounds& bounds, double tolerance) {
-    const double parts = std::max(kParts, std::pow(10, std::ceil(2 - std::log10(tolerance))));
+    const double parts = areaParts(tolerance);
     return {lowerRounded(bounds.lo, parts), upperRounded(bounds.hi, parts)};
 }
 
@@ -109,7 +118,7 @@ void writeLabelClearanceHeader(std::ostream& out, const DetectOptions& options) 
 
 void writeLabelClearance(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs, const Row& row,
                          const LabelClearance& clearance) {
-    writeLabelBounds(out, options, inputs, row, clearance.label, roundedOutward(clearance.bounds));
+    writeBounds(out, options, row, labelPart(inputs, clearance.label), roundedOutward(clearance.bounds));
 }
 
 void writeLabelAreaHeader(std::ostream& out, const DetectOptions& options) {
@@ -118,7 +127,19 @@ void writeLabelAreaHeader(std::ostream& out, const DetectOptions& options) {
 
 void writeLabelArea(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs, const Row& row,
                     const LabelArea& area) {
-    writeLabelBounds(out, options, inputs, row, area.label, roundedOutward(area.bounds, options.distance.areaGoal()));
+    writeBounds(out, options, row, labelPart(inputs, area.label),
+                roundedOutward(area.bounds, options.distance.areaGoal()));
+}
+
+void writeTriangleAreaHeader(std::ostream& out, const DetectOptions& options) {
+    out << "pose,mesh,volume,triangle,triangle_area,area_lo,area_hi" << (options.jobs.fromFile ? ",job\n" : "\n");
+}
+
+void writeTriangleArea(std::ostream& out, const DetectOptions& options, const Row& row, const TriangleArea& area) {
+    const double tolerance = options.distance.areaGoal();
+    const double parts = areaParts(tolerance);
+    writeBounds(out, options, row, std::to_string(area.triangle) + ',' + number(std::round(area.whole * parts) / parts),
+                roundedOutward(area.bounds, tolerance));
 }
 
 bool isClosestEnding(const std::filesystem::path& path) {

@@ -4,6 +4,7 @@
 #include "app/detect/auto_method.h"
 #include "app/detect/detect_chunks.h"
 #include "app/detect/pair_engine.h"
+#include "app/detect/side_files.h"
 #include "app/options/inputs.h"
 #include "app/options/output_paths.h"
 #include "app/output/interrupt.h"
@@ -123,15 +124,13 @@ std::vector<NamedPath> readPaths(const DetectOptions& options) {
 
 /// No output may be an input, or another output.
 Result<void> checkDetectPaths(const DetectOptions& options) {
-    const ExtraOptions& extra = options.extra;
     std::vector<NamedPath> inputs = readPaths(options);
     addInput(inputs, "--resume", options.chunks.folder);
-    const std::vector<NamedPath> outputs{{"--output", options.output.path.empty() ? "-" : options.output.path},
-                                         {"--triangles", extra.triangles},
-                                         {"--contacts", extra.contacts},
-                                         {"--closest", options.distance.closest},
-                                         {"--label-clearance", options.distance.labels},
-                                         {"--label-area", options.distance.labelAreas}};
+    std::vector<NamedPath> outputs{{"--output", options.output.path.empty() ? "-" : options.output.path},
+                                   {"--contacts", options.extra.contacts}};
+    for (const auto& [option, path] : sideFiles(options)) {
+        outputs.push_back({option, path});
+    }
     return checkOutputs(outputs, inputs);
 }
 
@@ -294,6 +293,8 @@ void addDistanceOptions(CLI::App& parser, DistanceOptions& options) {
         "0.1");
     addPath(parser, "--label-area", options.labelAreas,
             "a CSV file for the area in each label of --labels: pose,mesh,volume,label,name,area_lo,area_hi");
+    addPath(parser, "--triangle-area", options.triangleAreas,
+            "a CSV file for the area of each triangle: pose,mesh,volume,triangle,triangle_area,area_lo,area_hi");
     parser
         .add_option("--to", options.to,
                     "the labels that --label-clearance and --label-area are about, by number or name; default: all "

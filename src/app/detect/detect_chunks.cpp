@@ -2,6 +2,7 @@
 #include "app/detect/detect_chunks.h"
 
 #include "app/chunks/run_chunks.h"
+#include "app/detect/side_files.h"
 #include "app/output/interrupt.h"
 #include "core/base/try.h"
 #include "core/method/method_table.h"
@@ -35,13 +36,6 @@ void addEngineFacts(RunFacts& facts, const PairEngine& engine) {
 }
 
 } // namespace
-
-MergePaths sideFiles(const DetectOptions& options) {
-    return {{"--triangles", options.extra.triangles},
-            {"--closest", options.distance.closest},
-            {"--label-clearance", options.distance.labels},
-            {"--label-area", options.distance.labelAreas}};
-}
 
 Result<void> checkDetectChunks(const DetectOptions& options) {
     const bool standardInput =

@@ -53,6 +53,9 @@ void writeLabelClearance(std::ostream& out, const DetectOptions& options, const 
 void writeLabelAreaHeader(std::ostream& out, const DetectOptions& options);
 void writeLabelArea(std::ostream& out, const DetectOptions& options, const DetectInputs& inputs, const Row& row,
                     const LabelArea& area);
+/// pose,mesh,volume,triangle,triangle_area,area_lo,area_hi; with --jobs also job.
+void writeTriangleAreaHeader(std::ostream& out, const DetectOptions& options);
+void writeTriangleArea(std::ostream& out, const DetectOptions& options, const Row& row, const TriangleArea& area);
 /// Rounded to a millionth of a mm, down or up, so that they stay bounds.
 [[nodiscard]] ClearanceBounds roundedOutward(const ClearanceBounds& bounds);
 /// Rounded in the same way to a millionth of a mm^2, or to a hundredth of a small tolerance.

@@ -56,7 +56,7 @@ class HostEngine : public PairEngine {
     [[nodiscard]] Result<BatchAnswer> answer(const cpu::Batch& batch);
     [[nodiscard]] Result<ClearanceAnswer> measure(const cpu::Batch& batch);
     [[nodiscard]] Result<LabelClearanceAnswer> measureLabels(const cpu::Batch& batch);
-    [[nodiscard]] Result<AreaAnswer> measureArea(const cpu::Batch& batch);
+    [[nodiscard]] Result<TriangleAreaAnswer> measureArea(const cpu::Batch& batch);
     [[nodiscard]] Result<LabelAreaAnswer> measureLabelAreas(const cpu::Batch& batch);
 
     const DetectOptions& options_;
@@ -112,9 +112,17 @@ Result<LabelClearanceAnswer> HostEngine::measureLabels(const cpu::Batch& batch) 
     return meters_.clearance->measureLabels(batch, inputs_.measured);
 }
 
-/// Nothing where areas are not asked for.
-Result<AreaAnswer> HostEngine::measureArea(const cpu::Batch& batch) {
-    return options_.distance.area ? meters_.area->measure(batch) : AreaAnswer{};
+/// Nothing where areas are not asked for, or not those of triangles.
+Result<TriangleAreaAnswer> HostEngine::measureArea(const cpu::Batch& batch) {
+    if (!options_.distance.area) {
+        return TriangleAreaAnswer{};
+    }
+    if (!options_.distance.triangleAreas.empty()) {
+        return meters_.area->measureTriangles(batch);
+    }
+    Result<AreaAnswer> measured = meters_.area->measure(batch);
+    VOXTACT_TRY(measured);
+    return TriangleAreaAnswer{std::move(measured->pairs), {}, measured->wallMilliseconds};
 }
 
 /// Nothing where these are not asked for.
@@ -142,7 +150,7 @@ Result<void> HostEngine::answer(const Window& window, WindowRows& rows, const st
         VOXTACT_TRY(measured);
         const Result<LabelClearanceAnswer> labels = measureLabels(batch);
         VOXTACT_TRY(labels);
-        const Result<AreaAnswer> areas = measureArea(batch);
+        const Result<TriangleAreaAnswer> areas = measureArea(batch);
         VOXTACT_TRY(areas);
         const Result<LabelAreaAnswer> labelAreas = measureLabelAreas(batch);
         VOXTACT_TRY(labelAreas);
@@ -167,6 +175,9 @@ Result<void> HostEngine::answer(const Window& window, WindowRows& rows, const st
             rows.addArea(area);
         }
         for (const LabelArea& area : labelAreas->labels) {
+            rows.addArea(area);
+        }
+        for (const TriangleArea& area : areas->triangles) {
             rows.addArea(area);
         }
         rows.endBatch(*answered);

@@ -99,6 +99,7 @@ Result<void> checkDistance(DetectOptions& options) {
           checkUsed(!distance.labelAreas.empty(), "--label-area", distance.area, area),
           checkUsed(!distance.labelAreas.empty(), "--label-area", !options.extra.labels.empty(),
                     "it is about labels, and --labels is not given"),
+          checkUsed(!distance.triangleAreas.empty(), "--triangle-area", distance.area, area),
           checkUsed(!distance.to.empty(), "--to", distance.byLabel(),
                     "it says which labels --label-clearance and --label-area are about, and neither is given"),
           checkUsed(distance.toAnyOpacity, "--to-any-opacity", !distance.labels.empty(),

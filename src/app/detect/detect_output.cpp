@@ -4,12 +4,14 @@
 #include "app/chunks/run_chunks.h"
 #include "app/detect/detect_files.h"
 #include "app/detect/detect_table.h"
+#include "app/detect/side_files.h"
 #include "app/output/standard_streams.h"
 #include "core/base/text_stream.h"
 #include "core/base/try.h"
 #include "io/text/table.h"
 #include "voxtact/io.h"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 
@@ -43,6 +45,13 @@ struct DetectOutput::State {
     Result<void> writeHeld();
     Result<void> pass();
     std::ostream& out() { return table ? table->stream() : text; }
+    /// Null where it is not asked for.
+    std::ostream* side(SideFile which) {
+        std::optional<ResultFile>& file = sides[static_cast<std::size_t>(which)];
+        return file ? &file->stream() : nullptr;
+    }
+    /// All of them, that of the rows first.
+    std::vector<ResultFile*> files();
 
     const DetectOptions& options;
     const DetectInputs& inputs;
@@ -51,11 +60,8 @@ struct DetectOutput::State {
     bool held;
     TextStream text{}; ///< on its way to standard output
     std::optional<ResultFile> table{};
-    std::optional<ResultFile> triangles{};
     std::optional<ResultFile> contactsFile{};
-    std::optional<ResultFile> closestFile{};
-    std::optional<ResultFile> labelFile{};
-    std::optional<ResultFile> labelAreaFile{};
+    std::array<std::optional<ResultFile>, kSideFiles> sides{};
     bool chunk = false; ///< rows alone: what is before and behind them is the run's
     std::optional<io::TableWriter> writer{};
     io::NamedCells facts{};
@@ -72,6 +78,19 @@ struct DetectOutput::State {
     std::array<std::uint64_t, kAreaEnds> labelAreaEnds{};
 };
 
+std::vector<ResultFile*> DetectOutput::State::files() {
+    std::vector<ResultFile*> all;
+    const auto add = [&all](std::optional<ResultFile>& file) {
+        if (file) {
+            all.push_back(&*file);
+        }
+    };
+    add(table);
+    add(contactsFile);
+    std::ranges::for_each(sides, add);
+    return all;
+}
+
 void DetectOutput::State::keepMeasured(std::span<const Row> part) {
     for (const Row& row : part) {
         if (row.area) {
@@ -81,7 +100,7 @@ void DetectOutput::State::keepMeasured(std::span<const Row> part) {
             continue;
         }
         ++ends[static_cast<std::size_t>(row.clearance->end)];
-        if (closestFile && row.clearance->closest) {
+        if (side(SideFile::Closest) != nullptr && row.clearance->closest) {
             closest.push_back({*row.clearance->closest, row.clearance->bounds, row.job, row.pose});
         }
     }
@@ -120,27 +139,23 @@ DetectOutput::~DetectOutput() = default;
 
 Result<DetectOutput> DetectOutput::create(const DetectOptions& options, const DetectInputs& inputs) {
     auto state = std::make_unique<State>(options, inputs);
-    for (const auto& [path, file] :
-         {std::pair(&options.output.path, &state->table), std::pair(&options.extra.triangles, &state->triangles),
-          std::pair(&options.extra.contacts, &state->contactsFile),
-          std::pair(&options.distance.closest, &state->closestFile),
-          std::pair(&options.distance.labels, &state->labelFile),
-          std::pair(&options.distance.labelAreas, &state->labelAreaFile)}) {
-        if (path->empty()) {
-            continue;
+    const auto open = [](const std::filesystem::path& path, std::optional<ResultFile>& file) -> Result<void> {
+        if (path.empty()) {
+            return {};
         }
-        Result<ResultFile> opened = ResultFile::create(*path);
+        Result<ResultFile> opened = ResultFile::create(path);
         VOXTACT_TRY(opened);
-        *file = std::move(*opened);
-    }
-    if (state->triangles) {
-        writeTriangleHeader(state->triangles->stream(), options);
-    }
-    if (state->labelFile) {
-        writeLabelClearanceHeader(state->labelFile->stream(), options);
-    }
-    if (state->labelAreaFile) {
-        writeLabelAreaHeader(state->labelAreaFile->stream(), options);
+        file = std::move(*opened);
+        return {};
+    };
+    VOXTACT_TRY(open(options.output.path, state->table));
+    VOXTACT_TRY(open(options.extra.contacts, state->contactsFile));
+    for (std::size_t i = 0; i < kSideFiles; ++i) {
+        const SideFileFacts& facts = sideFileTable()[i];
+        VOXTACT_TRY(open(facts.path(options), state->sides[i]));
+        if (state->sides[i] && !facts.comesLast) {
+            facts.header(state->sides[i]->stream(), options, inputs);
+        }
     }
     state->writer.emplace(state->out(), state->format);
     return DetectOutput(std::move(state));
@@ -153,14 +168,11 @@ Result<DetectOutput> DetectOutput::createChunk(const DetectOptions& options, con
     Result<ResultFile> table = files.create("--output");
     VOXTACT_TRY(table);
     state->table = std::move(*table);
-    std::optional<ResultFile>* const sides[] = {&state->triangles, &state->closestFile, &state->labelFile,
-                                                &state->labelAreaFile};
-    const MergePaths paths = sideFiles(options);
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-        if (!paths[i].second.empty()) {
-            Result<ResultFile> side = files.create(paths[i].first);
+    for (std::size_t i = 0; i < kSideFiles; ++i) {
+        if (!sideFileTable()[i].path(options).empty()) {
+            Result<ResultFile> side = files.create(sideFileTable()[i].option);
             VOXTACT_TRY(side);
-            *sides[i] = std::move(*side);
+            state->sides[i] = std::move(*side);
         }
     }
     state->writer.emplace(state->out(), state->format);
@@ -174,21 +186,12 @@ std::vector<RunOutput> runOutputs(const DetectOptions& options, const DetectInpu
     io::Table empty = columns.table({});
     empty.facts = detectFacts(device, driver);
     std::vector<RunOutput> outputs{tableOutput(options.output.format(), empty)};
-    for (const auto& [option, path] : sideFiles(options)) {
-        if (path.empty()) {
-            continue;
+    for (const SideFileFacts& side : sideFileTable()) {
+        if (!side.path(options).empty()) {
+            TextStream head;
+            side.header(head, options, inputs);
+            outputs.push_back({side.option, side.ending, head.str(), "", ""});
         }
-        TextStream sideHead;
-        if (option == "--triangles") {
-            writeTriangleHeader(sideHead, options);
-        } else if (option == "--closest") {
-            writeClosestHeader(sideHead, options, inputs);
-        } else if (option == "--label-clearance") {
-            writeLabelClearanceHeader(sideHead, options);
-        } else {
-            writeLabelAreaHeader(sideHead, options);
-        }
-        outputs.push_back({option, option == "--closest" ? ".csv" : "", sideHead.str(), "", ""});
     }
     return outputs;
 }
@@ -223,21 +226,27 @@ Result<void> DetectOutput::add(std::span<const Row> rows) {
 }
 
 void DetectOutput::addTriangle(const Row& row, const TouchedTriangle& touched) {
-    if (state_->triangles) {
-        writeTriangle(state_->triangles->stream(), state_->options, row, touched);
+    if (std::ostream* const out = state_->side(SideFile::Triangles)) {
+        writeTriangle(*out, state_->options, row, touched);
     }
 }
 
 void DetectOutput::addLabelClearance(const Row& row, const LabelClearance& clearance) {
-    if (state_->labelFile) {
-        writeLabelClearance(state_->labelFile->stream(), state_->options, state_->inputs, row, clearance);
+    if (std::ostream* const out = state_->side(SideFile::LabelClearance)) {
+        writeLabelClearance(*out, state_->options, state_->inputs, row, clearance);
     }
 }
 
 void DetectOutput::addLabelArea(const Row& row, const LabelArea& area) {
-    if (state_->labelAreaFile) {
+    if (std::ostream* const out = state_->side(SideFile::LabelArea)) {
         ++state_->labelAreaEnds[static_cast<std::size_t>(area.end)];
-        writeLabelArea(state_->labelAreaFile->stream(), state_->options, state_->inputs, row, area);
+        writeLabelArea(*out, state_->options, state_->inputs, row, area);
+    }
+}
+
+void DetectOutput::addTriangleArea(const Row& row, const TriangleArea& area) {
+    if (std::ostream* const out = state_->side(SideFile::TriangleArea)) {
+        writeTriangleArea(*out, state_->options, row, area);
     }
 }
 
@@ -279,24 +288,24 @@ Result<void> DetectOutput::finish(double wallMilliseconds) {
     if (state.contactsFile) {
         writeContacts(state.contactsFile->stream(), state.options, state.inputs, {state.contacts, state.bounds});
     }
-    if (state.closestFile) {
+    if (std::ostream* const out = state.side(SideFile::Closest)) {
         const auto write = state.chunk ? writeClosestRows : writeClosest;
-        write(state.closestFile->stream(), state.options, state.inputs, state.closest);
+        write(*out, state.options, state.inputs, state.closest);
     }
     // Nothing gets its name before all is written. What is on standard output cannot be taken back, and may fail.
-    for (std::optional<ResultFile>* file : {&state.table, &state.triangles, &state.contactsFile, &state.closestFile,
-                                            &state.labelFile, &state.labelAreaFile}) {
-        VOXTACT_TRY(*file ? (*file)->close() : Result<void>());
+    for (ResultFile* const file : state.files()) {
+        VOXTACT_TRY(file->close());
     }
     state.held = false;
     VOXTACT_TRY(state.table ? Result<void>() : state.pass());
     std::vector<io::OutputFile*> all;
-    for (std::optional<ResultFile>* file : {&state.labelAreaFile, &state.labelFile, &state.closestFile,
-                                            &state.contactsFile, &state.triangles, &state.table}) {
-        if (*file && (*file)->file() != nullptr) {
-            all.push_back((*file)->file());
+    for (ResultFile* const file : state.files()) {
+        if (file->file() != nullptr) {
+            all.push_back(file->file());
         }
     }
+    // The table is the last to get its name: where it is, all of them are.
+    std::ranges::reverse(all);
     return io::OutputFile::commitAll(all);
 }
 

@@ -42,6 +42,7 @@ class DetectOutput {
     void addTriangle(const Row& row, const TouchedTriangle& touched);
     void addLabelClearance(const Row& row, const LabelClearance& clearance);
     void addLabelArea(const Row& row, const LabelArea& area);
+    void addTriangleArea(const Row& row, const TriangleArea& area);
     /// False: as many are kept as there is room for.
     [[nodiscard]] bool keepContact(const Row& row, const Contact& contact);
     void countContacts(std::uint64_t found) noexcept;

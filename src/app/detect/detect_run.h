@@ -39,6 +39,7 @@ struct DistanceOptions {
     bool area = false;
     std::optional<double> areaTolerance; ///< mm^2
     std::filesystem::path labelAreas;    ///< a file to write
+    std::filesystem::path triangleAreas; ///< another
     std::vector<LabelWord> to;           ///< of `labels` and `labelAreas`; empty: all but 0
     bool toAnyOpacity = false;           ///< all of a label, not what is opaque of it
 
@@ -129,9 +130,6 @@ struct KeptBounds {
     std::uint32_t job = 0;
     std::uint64_t pose = 0;
 };
-
-/// The outputs of the options that are files in addition to the table, and their paths; an empty path: not asked for.
-[[nodiscard]] MergePaths sideFiles(const DetectOptions& options);
 
 /// Decides what the options leave open: afterwards there are a projection and jobs. Refuses options that do not go
 /// together.

@@ -48,6 +48,10 @@ void WindowRows::addArea(const LabelArea& area) {
     output_.addLabelArea(rows_[batch_[area.pair]], area);
 }
 
+void WindowRows::addArea(const TriangleArea& area) {
+    output_.addTriangleArea(rows_[batch_[area.pair]], area);
+}
+
 void WindowRows::endBatch(const BatchAnswer& answer) {
     keepExtra(answer, batch_, rows_, output_);
     if (answer.counters) {

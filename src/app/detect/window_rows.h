@@ -25,6 +25,8 @@ class WindowRows {
     void addArea(const PairArea& area);
     /// The same of one of its labels; in order.
     void addArea(const LabelArea& area);
+    /// The same of one of its triangles; in order.
+    void addArea(const TriangleArea& area);
     /// The answers in addition to the counts of the pairs that were added since the last time. The rows up to the last
     /// of these are known now; with --timing they wait for the end of the window, so that no time is of writing them.
     void endBatch(const BatchAnswer& answer);

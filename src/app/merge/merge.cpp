@@ -29,14 +29,20 @@ struct MergeOptions {
     std::filesystem::path closest;
     std::filesystem::path labels;
     std::filesystem::path labelAreas;
+    std::filesystem::path triangleAreas;
     std::filesystem::path byTarget;
     std::filesystem::path surface;
     std::filesystem::path heatMap;
 
     /// Those in addition to the rows.
     [[nodiscard]] MergePaths files() const {
-        return {{"--triangles", triangles},   {"--closest", closest},    {"--label-clearance", labels},
-                {"--label-area", labelAreas}, {"--by-target", byTarget}, {"--surface", surface},
+        return {{"--triangles", triangles},
+                {"--closest", closest},
+                {"--label-clearance", labels},
+                {"--label-area", labelAreas},
+                {"--triangle-area", triangleAreas},
+                {"--by-target", byTarget},
+                {"--surface", surface},
                 {"--heat-map", heatMap}};
     }
 };
@@ -104,6 +110,7 @@ Command addMerge(CLI::App& program) {
     addPath(*parser, "--closest", options->closest, "a .csv file for what detect --closest writes");
     addPath(*parser, "--label-clearance", options->labels, "a file for what detect --label-clearance writes");
     addPath(*parser, "--label-area", options->labelAreas, "a file for what detect --label-area writes");
+    addPath(*parser, "--triangle-area", options->triangleAreas, "a file for what detect --triangle-area writes");
     addPath(*parser, "--by-target", options->byTarget, "a file for what plan --by-target writes");
     addPath(*parser, "--surface", options->surface,
             "a .ply file for what plan --surface writes; of several targets a path with {target}");

@@ -11,6 +11,11 @@
 
 namespace voxtact::cpu {
 
+/// mm^2: the parallelogram of two sides of a triangle.
+[[nodiscard]] inline double parallelogramOf(const WorldTriangle& triangle) noexcept {
+    return glm::length(glm::cross(triangle[1] - triangle[0], triangle[2] - triangle[0]));
+}
+
 /// A triangle in place, for its parts. Centred voxel coordinates (VolumeSpace).
 struct AreaFrame {
     AreaFrame() = default;
@@ -20,7 +25,7 @@ struct AreaFrame {
           side2(space.toVoxel(triangle[2] - triangle[0])) {
         const glm::dvec3 a = triangle[1] - triangle[0];
         const glm::dvec3 b = triangle[2] - triangle[0];
-        const double area = glm::length(glm::cross(a, b));
+        const double area = parallelogramOf(triangle);
         const double doubt = 4 * error * (glm::length(a) + glm::length(b) + 4 * error);
         lo = std::max(area - doubt, 0.0);
         hi = area + doubt;

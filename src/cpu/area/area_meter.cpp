@@ -109,6 +109,31 @@ LabelAreaAnswer byLabel(const Batch& batch, std::span<const std::int32_t> labels
     return answer;
 }
 
+/// A pair, and what its triangles have.
+struct TrianglesOfPair : PairArea {
+    std::vector<TriangleFound> triangles;
+};
+
+/// Measures all pairs; `trianglesOf(pair)`: where what its triangles have goes, or null.
+template <class Pair, class TrianglesOf>
+Result<void> measureAll(AreaMeterImpl& impl, const Batch& batch, std::vector<Pair>& pairs,
+                        const TrianglesOf& trianglesOf) {
+    VOXTACT_TRY(checkCertifiedBatch(batch));
+    const Cancellation cancel(batch.cancel);
+    VOXTACT_TRY(checkNotCancelled(cancel));
+    pairs = numberedPairs<Pair>(batch);
+    const AreaGoal goal = goalOf(impl.desc, &cancel);
+    return impl.workers.forEachPair(batch, cancel, impl.workers.partsOf(batch, impl.desc.resolution), pairs,
+                                    [&](const PairAt& at, Pair& pair, ThreadMemory& memory) {
+                                        if (placeIfItMayTouch(at, memory)) {
+                                            const AreaFound found =
+                                                measureArea(at.volume(), at.part, memory.mesh, goal, trianglesOf(pair));
+                                            pair.bounds = found.bounds;
+                                            pair.end = found.end;
+                                        }
+                                    });
+}
+
 /// Refuses what checkLabels() refuses.
 Result<SlotsOfMaps> slotsOf(const Batch& batch, std::span<const std::int32_t> labels) {
     SlotsOfMaps slots;
@@ -138,22 +163,27 @@ Result<AreaMeter> AreaMeter::create(const AreaDesc& desc) {
 Result<AreaAnswer> AreaMeter::measure(const Batch& batch) {
     return guard([&]() -> Result<AreaAnswer> {
         const StopWatch watch;
-        VOXTACT_TRY(checkCertifiedBatch(batch));
-        const Cancellation cancel(batch.cancel);
-        VOXTACT_TRY(checkNotCancelled(cancel));
         AreaAnswer answer;
-        answer.pairs = numberedPairs<PairArea>(batch);
-        Workers& workers = impl_->workers;
-        const AreaGoal goal = goalOf(impl_->desc, &cancel);
-        VOXTACT_TRY(workers.forEachPair(batch, cancel, workers.partsOf(batch, impl_->desc.resolution), answer.pairs,
-                                        [&](const PairAt& at, PairArea& pair, ThreadMemory& memory) {
-                                            if (placeIfItMayTouch(at, memory)) {
-                                                const AreaFound found =
-                                                    measureArea(at.volume(), at.part, memory.mesh, goal);
-                                                pair.bounds = found.bounds;
-                                                pair.end = found.end;
-                                            }
-                                        }));
+        VOXTACT_TRY(measureAll(*impl_, batch, answer.pairs, [](PairArea&) { return nullptr; }));
+        answer.wallMilliseconds = watch.milliseconds();
+        return answer;
+    });
+}
+
+Result<TriangleAreaAnswer> AreaMeter::measureTriangles(const Batch& batch) {
+    return guard([&]() -> Result<TriangleAreaAnswer> {
+        const StopWatch watch;
+        std::vector<TrianglesOfPair> pairs;
+        VOXTACT_TRY(measureAll(*impl_, batch, pairs, [](TrianglesOfPair& pair) { return &pair.triangles; }));
+        TriangleAreaAnswer answer;
+        for (TrianglesOfPair& pair : pairs) {
+            answer.pairs.push_back(pair);
+            for (const TriangleFound& found : pair.triangles) {
+                answer.triangles.push_back(
+                    {pair.pair, pair.item, pair.pose, found.triangle, found.whole, found.bounds});
+            }
+            pair.triangles = {};
+        }
         answer.wallMilliseconds = watch.milliseconds();
         return answer;
     });

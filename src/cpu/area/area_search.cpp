@@ -5,6 +5,7 @@
 #include "cpu/area/area_walk.h"
 #include "cpu/area/open_parts.h"
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -20,13 +21,67 @@ struct Slot {
     OpenParts open;
 };
 
+/// What each triangle has of all slots together, where that is asked for.
+class TriangleSums {
+  public:
+    explicit TriangleSums(bool areAsked) : areAsked_(areAsked) {}
+
+    /// The next is in frame `frame`, unless a triangle is still to come there.
+    void begin(std::uint32_t frame, std::uint32_t triangle, double whole) {
+        if (areAsked_) {
+            sums_.push_back({triangle, whole, {}});
+            ofFrame_.resize(std::size_t{frame} + 1);
+            ofFrame_[frame] = sums_.size() - 1;
+        }
+    }
+    void add(std::uint32_t frame, const PartArea& area) noexcept {
+        if (areAsked_) {
+            sums_[ofFrame_[frame]].sum.add(area);
+        }
+    }
+    void takeBack(std::uint32_t frame, const PartArea& area) noexcept {
+        if (areAsked_) {
+            sums_[ofFrame_[frame]].sum.takeBack(area);
+        }
+    }
+    /// What was begun last will not be divided.
+    void end() {
+        if (areAsked_ && sums_.back().sum.bounds().hi == 0) {
+            sums_.pop_back();
+        }
+    }
+    /// Those that may have an area, by number.
+    [[nodiscard]] std::vector<TriangleFound> found() const {
+        std::vector<TriangleFound> found;
+        for (const Sum& one : sums_) {
+            if (const AreaBounds bounds = one.sum.bounds(); bounds.hi > 0) {
+                found.push_back({one.triangle, one.whole, bounds});
+            }
+        }
+        std::ranges::sort(found, {}, &TriangleFound::triangle);
+        return found;
+    }
+
+  private:
+    struct Sum {
+        std::uint32_t triangle = 0;
+        double whole = 0;
+        AreaSum sum;
+    };
+
+    bool areAsked_;
+    std::vector<Sum> sums_;
+    std::vector<std::size_t> ofFrame_; ///< numbers of `sums_`
+};
+
 class AreaSearch {
   public:
     /// `labels`: null where there is one slot for all.
     AreaSearch(const VolumeImpl& volume, const OpaquePart& part, MeshPlace& mesh, const AreaLabels* labels,
-               std::size_t slots, const AreaGoal& goal)
+               std::size_t slots, const AreaGoal& goal, bool byTriangle)
         : part_(part), mesh_(mesh), goal_(goal), slack_(part.space, mesh.error()), measure_(volume, part, slack_),
-          walk_(volume, part, slack_, measure_, labels != nullptr), slots_(slots, Slot(goal.mostSteps)) {
+          walk_(volume, part, slack_, measure_, labels != nullptr), slots_(slots, Slot(goal.mostSteps)),
+          triangles_(byTriangle) {
         if (labels != nullptr) {
             labels_.emplace(*labels, part.space, slack_);
         }
@@ -40,6 +95,8 @@ class AreaSearch {
         }
         return found;
     }
+    /// Of what was run.
+    [[nodiscard]] std::vector<TriangleFound> triangles() const { return triangles_.found(); }
 
   private:
     [[nodiscard]] bool goesOn() const { return !isCancelled(goal_.cancel); }
@@ -82,13 +139,17 @@ class AreaSearch {
             }
             const auto number = static_cast<std::uint32_t>(frames_.size());
             const AreaFrame frame(part_.space, triangle.corners, mesh_.error());
+            triangles_.begin(number, mesh_.mesh().numbers[mesh_.first(run) + i],
+                             0.5 * parallelogramOf(triangle.corners));
             bool isOpen = false;
             walk_.triangle(
                 frame, number, [this] { return goesOn(); },
                 [&](const CellPart& part) { isOpen = addByLabel(frame, part) || isOpen; },
-                [&](const UvPolygon& polygon) { slots_[0].sum.add(PartMeasure::whole(frame, polygon)); });
+                [&](const UvPolygon& polygon) { sum(0, number, PartMeasure::whole(frame, polygon)); });
             if (isOpen) {
                 frames_.push_back(frame);
+            } else {
+                triangles_.end();
             }
         }
     }
@@ -106,12 +167,16 @@ class AreaSearch {
     /// Whether it may be divided.
     bool add(const AreaFrame& frame, const CellPart& part) {
         const PartArea area = measure_.area(frame, part);
-        Slot& slot = slots_[part.slot];
-        slot.sum.add(area);
+        sum(part.slot, part.frame, area);
         if (area.gain > 0) {
-            slot.open.add(part, area);
+            slots_[part.slot].open.add(part, area);
         }
         return area.gain > 0;
+    }
+
+    void sum(std::size_t slot, std::uint32_t frame, const PartArea& area) {
+        slots_[slot].sum.add(area);
+        triangles_.add(frame, area);
     }
 
     void divide(const OpenParts::Open& open) {
@@ -127,6 +192,7 @@ class AreaSearch {
             return; // as it is
         }
         slots_[open.part.slot].sum.takeBack(open.area);
+        triangles_.takeBack(open.part.frame, open.area);
         add(frame, below);
         add(frame, above);
     }
@@ -139,6 +205,7 @@ class AreaSearch {
     AreaWalk walk_;
     std::vector<AreaFrame> frames_; ///< of the triangles that have parts that may be divided
     std::vector<Slot> slots_;
+    TriangleSums triangles_;
     std::optional<LabelCut> labels_;
 };
 
@@ -148,23 +215,42 @@ bool areKnown(const VolumeSpace& space, double error) {
     return error < kInfinity && AreaSlack(space, error).reach() < kMostReach;
 }
 
-std::vector<AreaFound> measure(const VolumeImpl& volume, const OpaquePart& part, MeshPlace& mesh,
-                               const AreaLabels* labels, std::size_t slots, const AreaGoal& goal) {
-    if (!areKnown(part.space, mesh.error())) {
-        return std::vector<AreaFound>(slots, {{0, kInfinity}, AreaEnd::Rounding});
+constexpr AreaFound kUnknown{{0, kInfinity}, AreaEnd::Rounding};
+
+/// All of a mesh that is not known well enough.
+std::vector<TriangleFound> unknownTriangles(const MeshImpl& mesh) {
+    std::vector<TriangleFound> found(mesh.facts.triangles);
+    for (std::uint32_t i = 0; i < mesh.facts.triangles; ++i) {
+        found[i] = {i, kInfinity, kUnknown.bounds};
     }
-    return AreaSearch(volume, part, mesh, labels, slots, goal).run();
+    return found;
 }
 
 } // namespace
 
-AreaFound measureArea(const VolumeImpl& volume, const OpaquePart& part, MeshPlace& mesh, const AreaGoal& goal) {
-    return measure(volume, part, mesh, nullptr, 1, goal).front();
+AreaFound measureArea(const VolumeImpl& volume, const OpaquePart& part, MeshPlace& mesh, const AreaGoal& goal,
+                      std::vector<TriangleFound>* triangles) {
+    const bool byTriangle = triangles != nullptr;
+    if (!areKnown(part.space, mesh.error())) {
+        if (byTriangle) {
+            *triangles = unknownTriangles(mesh.mesh());
+        }
+        return kUnknown;
+    }
+    AreaSearch search(volume, part, mesh, nullptr, 1, goal, byTriangle);
+    const AreaFound found = search.run().front();
+    if (byTriangle) {
+        *triangles = search.triangles();
+    }
+    return found;
 }
 
 std::vector<AreaFound> measureAreas(const VolumeImpl& volume, const OpaquePart& part, MeshPlace& mesh,
                                     const AreaLabels& labels, std::size_t slots, const AreaGoal& goal) {
-    return measure(volume, part, mesh, &labels, slots, goal);
+    if (!areKnown(part.space, mesh.error())) {
+        return std::vector<AreaFound>(slots, kUnknown);
+    }
+    return AreaSearch(volume, part, mesh, &labels, slots, goal, false).run();
 }
 
 } // namespace voxtact::cpu

@@ -24,10 +24,18 @@ struct AreaFound {
     AreaEnd end{};
 };
 
+/// What one triangle has of it.
+struct TriangleFound {
+    std::uint32_t triangle = 0; ///< number in the mesh
+    double whole = 0;           ///< mm^2, of all of it
+    AreaBounds bounds;
+};
+
 /// The contact area of a mesh that is in place: parts of its triangles, each in a cell, between bounds; and those
 /// whose bounds are farthest apart divided, until all together are within the tolerance. The same on every processor.
+/// `triangles`: null, or where those go that may have an area, by number.
 [[nodiscard]] AreaFound measureArea(const VolumeImpl& volume, const OpaquePart& part, MeshPlace& mesh,
-                                    const AreaGoal& goal);
+                                    const AreaGoal& goal, std::vector<TriangleFound>* triangles = nullptr);
 
 /// The same of what is opaque and where labelAt() says some labels: as many as there are slots, each with steps of its
 /// own.

@@ -17,8 +17,9 @@ if TYPE_CHECKING:
 _OUTPUTS = ("triangles", "contacts", "bounds", "labels")
 _MEMBERS = ("hit", "possible", "count", "exact", "item", "pose", "method", "projection", "counters", "milliseconds",
             "device_milliseconds", "contacts_found", *_OUTPUTS)
-_AREA_MEMBERS = ("lo", "hi", "end", "labels", "item", "pose", "milliseconds")
-_CLEARANCE_MEMBERS = (*_AREA_MEMBERS, "closest")
+_MEASURED_MEMBERS = ("lo", "hi", "end", "labels", "item", "pose", "milliseconds")
+_CLEARANCE_MEMBERS = (*_MEASURED_MEMBERS, "closest")
+_AREA_MEMBERS = (*_MEASURED_MEMBERS, "triangles", "by_triangle")
 _ENDS = np.array(["closed", "beyond", "rounding", "budget"])
 _AREA_ENDS = np.array(["closed", "rounding", "budget"])
 
@@ -348,6 +349,15 @@ class Area(_Measured):
         """
         names: npt.NDArray[np.str_] = _AREA_ENDS[self._core.end]
         return names
+
+    @property
+    def triangles(self) -> npt.NDArray[np.void]:
+        """(T,): those that may have an area, by pair, then by number: `pair`, `triangle`, its own area `whole`, and `lo`
+        and `hi`, mm^2. Of `triangles=True` only.
+        """
+        if not self._core.by_triangle:
+            raise NotReadyError("areas of triangles were not asked for; measure with triangles=True")
+        return self._core.triangles
 
     def plot(self, ax: Any = None) -> Any:
         """The bounds over the poses, mm^2, with matplotlib; the axes."""

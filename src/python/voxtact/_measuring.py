@@ -75,8 +75,8 @@ class Measuring:
 
     def area(self, mesh: Union[Mesh, Sequence[tuple[Mesh, Poses]]], poses: Optional[Poses] = None, *,
              tolerance: float = core.DEFAULT_AREA_TOLERANCE,
-             labels: Union[None, Literal[True], Sequence[Union[int, str]]] = None, most_steps: int = core.DEFAULT_AREA_STEPS,
-             progress: Progress = None) -> Area:
+             labels: Union[None, Literal[True], Sequence[Union[int, str]]] = None, triangles: bool = False,
+             most_steps: int = core.DEFAULT_AREA_STEPS, progress: Progress = None) -> Area:
         """How many mm^2 of the mesh's surface are in what is opaque: certified bounds for each pose.
 
         tolerance
@@ -84,16 +84,20 @@ class Measuring:
         labels
             measures in the opaque part of each of these labels, by number or name, instead (True: all but 0): a column for each. The
             scene's label map must be on its volume's grid. Areas in a label that no voxel has are 0; that is warned of
+        triangles
+            what each triangle has of it, too: `Area.triangles`. Not with labels
         most_steps
             a pose, or a label of one, that takes more is left with the bounds that it has
 
         The host engine measures, also for scenes on a device.
         """
+        if triangles and labels is not None:
+            raise InvalidArgumentError("areas are measured in labels or of triangles, not both at once")
         wanted = self._wanted_labels(labels, "areas in")
         steps = whole_number(most_steps, "most_steps", 1)
         meshes, matrices = asked(mesh, poses)
         with told(progress, pairs_in(meshes, matrices)) as tell:
-            return Area(self._core.area(meshes, matrices, number(tolerance, "tolerance"), steps, wanted, tell))
+            return Area(self._core.area(meshes, matrices, number(tolerance, "tolerance"), steps, wanted, bool(triangles), tell))
 
     def within(self, mesh: Union[Mesh, Sequence[tuple[Mesh, Poses]]], poses: Optional[Poses] = None, *, margin: float,
                method: Literal["cpu", "compute"] = "cpu", progress: Progress = None) -> Answer:
