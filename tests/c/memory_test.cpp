@@ -177,6 +177,9 @@ TEST_F(Memory, OfAreas) {
         const Owned<vxt_areas> out = made<vxt_areas>(vxt_areas_destroy, [](auto o) { return vxt_areas_create(o); });
         const std::int32_t asked[] = {1, 3};
         for (const char* const what : {"area", "area by label", "area by triangle"}) {
+            if (threads > 1 && std::string_view(what) == "area") {
+                continue; // what it needs, that by triangle needs, too
+            }
             const bool byLabel = std::string_view(what) == "area by label";
             const bool byTriangle = std::string_view(what) == "area by triangle";
             const auto ask = [&] {

@@ -275,7 +275,7 @@ def test_bounds_of_areas(scene, knife):
     surface = np.linalg.norm(np.cross(faces[:, 1] - faces[:, 0], faces[:, 2] - faces[:, 0]), axis=1).sum() / 2
     assert tight.lo[0] < surface
     assert scene.area(knife, placed((1000, 0, 0))).hi.tolist() == [0]
-    poses = np.stack([inside, placed((1000, 0, 0)), placed((0, 0, 20))])
+    poses = placed((0, 0, 0), (1000, 0, 0), (0, 0, 20))
     found = scene.area([(knife, poses[:2]), (knife, poses[2:])], triangles=True)
     np.testing.assert_array_equal(found.lo, scene.area(knife, poses).lo)
     parts = found.triangles

@@ -126,11 +126,11 @@ std::vector<NamedPath> readPaths(const DetectOptions& options) {
 Result<void> checkDetectPaths(const DetectOptions& options) {
     std::vector<NamedPath> inputs = readPaths(options);
     addInput(inputs, "--resume", options.chunks.folder);
-    std::vector<NamedPath> outputs{{"--output", options.output.path.empty() ? "-" : options.output.path},
-                                   {"--contacts", options.extra.contacts}};
+    std::vector<NamedPath> outputs{{"--output", options.output.path.empty() ? "-" : options.output.path}};
     for (const auto& [option, path] : sideFiles(options)) {
         outputs.push_back({option, path});
     }
+    outputs.insert(outputs.begin() + 2, {"--contacts", options.extra.contacts}); // as --help has them
     return checkOutputs(outputs, inputs);
 }
 

@@ -163,7 +163,8 @@ class Clearances:
     def __len__(self) -> int: ...
 
 class Areas:
-    by_triangle: bool
+    @property
+    def by_triangle(self) -> bool: ...
     @property
     def triangles(self) -> npt.NDArray[np.void]: ...
     @property

@@ -135,6 +135,9 @@ struct Decider {
             bounds.lastY = item.sizeY - 1;
             bounds.lastZ = item.sizeZ - 1;
         }
+        if (bounds.lastX < bounds.firstX || bounds.lastY < bounds.firstY || bounds.lastZ < bounds.firstZ) {
+            return; // nothing within reach, be it placed ever so badly
+        }
         const shader::CertifiedTriangle placed =
             shader::certifiedTriangle(at[0].point, at[1].point, at[2].point, bounds.delta);
         for (std::int32_t z = (bounds.firstZ + 1) >> 3; z <= (bounds.lastZ + 1) >> 3; ++z) {
