@@ -31,7 +31,7 @@ class AnswerTest : public CliTest {
     /// yes-no says what count does, by these options.
     void expectSameVerdicts(const Arguments& how) const {
         const Arguments plain = with(
-            {"detect", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:500", "--poses", path("poses.txt")},
+            {"detect", "--volume", "builtin:head:30", "--mesh", "builtin:scalpel:500", "--poses", path("poses.txt")},
             how);
         const auto counted = rows(plain);
         const auto answered = rows(with(plain, {"--answer", "yes-no"}));
@@ -49,7 +49,7 @@ class AnswerTest : public CliTest {
         EXPECT_LT(hits, counted.size());
     }
     void makePoses(int count) const {
-        output({"make", "poses", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:500", "--number",
+        output({"make", "poses", "--volume", "builtin:head:30", "--mesh", "builtin:scalpel:500", "--number",
                 std::to_string(count), "--seed", "7", "--output", path("poses.txt")});
     }
 };
@@ -84,20 +84,20 @@ TEST_F(AnswerDeviceTest, YesNoOnTheDevice) {
 }
 
 TEST_F(AnswerTest, YesNoIsAboutOneContact) {
-    const Arguments plain{"detect",  "--volume", "builtin:head:16", "--mesh", "builtin:scalpel:500",
+    const Arguments plain{"detect",  "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:500",
                           "--count", "cpu",      "--answer",        "yes-no"};
     for (const Arguments& more : {Arguments{"--contacts", path("c.csv")}, Arguments{"--triangles", path("t.csv")},
                                   Arguments{"--bounds"}, Arguments{"--labels", path("l.nii")}}) {
         EXPECT_THAT(refused(2, with(plain, more)), AllOf(HasSubstr("--answer yes-no"), HasSubstr(more.front())));
     }
-    EXPECT_THAT(refused(2, with({"detect", "--volume", "builtin:head:16", "--mesh", "builtin:scalpel:500"},
+    EXPECT_THAT(refused(2, with({"detect", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:500"},
                                 {"--answer", "maybe"})),
                 HasSubstr("count, yes-no"));
     EXPECT_EQ(filesInFolder(), 0U);
 }
 
 TEST_F(AnswerTest, ThreadsAreNamed) {
-    EXPECT_THAT(output({"detect", "--volume", "builtin:head:16", "--mesh", "builtin:scalpel:500", "--count", "cpu",
+    EXPECT_THAT(output({"detect", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:500", "--count", "cpu",
                         "--threads", "1", "--format", "json"}),
                 HasSubstr("\"cpu, 1 thread\""));
 }
@@ -106,9 +106,9 @@ TEST_F(AnswerTest, JobsSayWhatIsPutToWhat) {
     makePoses(3);
     output({"make", "mesh", "builtin:ellipsoid:500", path("a, \"b\".stl")});
     writeText(path("jobs.csv"), "mesh,volume,poses\r\n# a comment\n\n"
-                                "builtin:scalpel:500,builtin:head:32," +
+                                "builtin:scalpel:500,builtin:head:30," +
                                     path("poses.txt") + "\n\"" + path("a, \"\"b\"\".stl") + "\",builtin:ct:32,\n" +
-                                    "builtin:scalpel:500,builtin:head:32\n");
+                                    "builtin:scalpel:500,builtin:head:30\n");
     const std::string csv =
         output({"detect", "--jobs", path("jobs.csv"), "--count", "cpu", "--triangles", path("triangles.csv")});
     const auto lines = linesOf(csv);
@@ -121,7 +121,7 @@ TEST_F(AnswerTest, JobsSayWhatIsPutToWhat) {
     EXPECT_THAT(readText(path("triangles.csv")), HasSubstr("pose,triangle,count,mesh,volume,job\n"));
     // As each alone.
     const auto alone =
-        linesOf(output({"detect", "--mesh", "builtin:scalpel:500", "--volume", "builtin:head:32", "--poses",
+        linesOf(output({"detect", "--mesh", "builtin:scalpel:500", "--volume", "builtin:head:30", "--poses",
                         path("poses.txt"), "--count", "cpu", "--triangles", path("triangles.csv")}));
     for (std::size_t i = 1; i <= 3; ++i) {
         EXPECT_EQ(lines[i], alone.at(i) + ",0");
@@ -132,7 +132,7 @@ TEST_F(AnswerTest, VolumesOfJobsComeBack) {
     // Each volume in turn: the rows are those of the order of the file.
     std::string text;
     for (int i = 0; i < 4; ++i) {
-        text += "builtin:scalpel:500,builtin:head:32,\nbuiltin:ellipsoid:500,builtin:sphere:16,\n";
+        text += "builtin:scalpel:500,builtin:head:30,\nbuiltin:ellipsoid:500,builtin:sphere:16,\n";
     }
     writeText(path("jobs.csv"), text);
     const auto found = rows({"detect", "--jobs", path("jobs.csv"), "--count", "cpu"});
@@ -156,7 +156,7 @@ TEST_F(AnswerTest, JobsThatAreNone) {
     EXPECT_THAT(bad("a,b,c,d\n"), HasSubstr("line 1"));
     EXPECT_THAT(bad("\na,\"b,c\n"), AllOf(HasSubstr("line 2"), HasSubstr("quotes")));
     EXPECT_THAT(bad("builtin:scalpel,builtin:head,-\n"), HasSubstr("standard input"));
-    EXPECT_THAT(bad("builtin:scalpel,builtin:head:16," + path("no.txt") + "\n"), HasSubstr("no.txt"));
+    EXPECT_THAT(bad("builtin:scalpel,builtin:head:18," + path("no.txt") + "\n"), HasSubstr("no.txt"));
     if (const char* const unreadable = "/proc/self/mem"; std::ifstream(unreadable).is_open()) {
         EXPECT_THAT(refused(1, {"detect", "--jobs", unreadable}), HasSubstr("Input/output error"));
     }
@@ -165,7 +165,7 @@ TEST_F(AnswerTest, JobsThatAreNone) {
         EXPECT_THAT(refused(2, {"detect", "--jobs", path("jobs.csv"), option, "x"}),
                     AllOf(HasSubstr(option), HasSubstr("--jobs names")));
     }
-    writeText(path("jobs.csv"), "builtin:scalpel:500,builtin:head:16," + path("poses.txt") + "\n");
+    writeText(path("jobs.csv"), "builtin:scalpel:500,builtin:head:18," + path("poses.txt") + "\n");
     writeText(path("poses.txt"), "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1\n");
     for (const char* output : {"jobs.csv", "poses.txt"}) {
         EXPECT_THAT(refused(2, {"detect", "--jobs", path("jobs.csv"), "--output", path(output)}),
@@ -175,7 +175,7 @@ TEST_F(AnswerTest, JobsThatAreNone) {
 
 TEST_F(AnswerTest, MeshesThatDoNotFitAreNamed) {
     output({"make", "mesh", "builtin:scalpel:500", path("tool.stl")});
-    const Arguments plain{"detect", "--volume", "builtin:head:16", "--mesh", path("tool.stl"), "--count", "cpu"};
+    const Arguments plain{"detect", "--volume", "builtin:head:18", "--mesh", path("tool.stl"), "--count", "cpu"};
     EXPECT_EQ(run(plain).err, "");
     const Ran metres = run(with(plain, {"--mesh-scale", "0.001"}));
     EXPECT_EQ(metres.status, 0);
@@ -183,7 +183,7 @@ TEST_F(AnswerTest, MeshesThatDoNotFitAreNamed) {
     const Ran microns = run(with(plain, {"--mesh-scale", "1000"}));
     EXPECT_EQ(microns.status, 0);
     EXPECT_THAT(microns.err, AllOf(HasSubstr("note: "), HasSubstr("--mesh-scale 0.001")));
-    const Arguments builtin{"detect", "--volume", "builtin:head:16", "--mesh", "builtin:scalpel:500", "--count", "cpu"};
+    const Arguments builtin{"detect", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:500", "--count", "cpu"};
     EXPECT_EQ(run(builtin).err, "");
     EXPECT_THAT(run(with(builtin, {"--mesh-scale", "0.5"})).err, HasSubstr("--mesh-scale is about mesh files"));
     EXPECT_THAT(run(with(builtin, {"--mesh-space", "ras"})).err, HasSubstr("--mesh-space is about mesh files"));

@@ -13,7 +13,7 @@ class ArgumentsTest : public CliTest {
   protected:
     /// detect, with an argument that must be refused.
     static std::string badDetect(const Arguments& more) {
-        Arguments all{"detect", "--volume", "builtin:head:16", "--mesh", "builtin:scalpel:500"};
+        Arguments all{"detect", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:500"};
         all.insert(all.end(), more.begin(), more.end());
         return refused(2, all);
     }
@@ -150,15 +150,15 @@ TEST_F(ArgumentsTest, NumbersThatCannotBeUsed) {
 
 TEST_F(ArgumentsTest, WhatIsOneIsNotGivenTwice) {
     const std::vector<std::pair<Arguments, Arguments>> cases{
-        {{"detect", "--volume", "builtin:head:16", "--mesh", "builtin:scalpel:200"}, {"--pose-tolerance", "1,2"}},
-        {{"detect", "--volume", "builtin:head:16", "--mesh", "builtin:scalpel:200", "--resume", path("run")},
+        {{"detect", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:200"}, {"--pose-tolerance", "1,2"}},
+        {{"detect", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:200", "--resume", path("run")},
          {"--shard", "1/2"}},
-        {{"render", "--volume", "builtin:head:16", "--output", path("x.png")}, {"--slice", "axial"}},
-        {{"render", "--volume", "builtin:head:16", "--output", path("x.png"), "--slice", "axial"},
+        {{"render", "--volume", "builtin:head:18", "--output", path("x.png")}, {"--slice", "axial"}},
+        {{"render", "--volume", "builtin:head:18", "--output", path("x.png"), "--slice", "axial"},
          {"--window", "-1:2"}},
-        {{"plan", "--volume", "builtin:head:16", "--target", "0,0,0"}, {"--tip", "-1,2,3"}},
-        {{"detect", "--volume", "builtin:head:16", "--mesh", "builtin:scalpel:200"}, {"--threads", "1"}},
-        {{"detect", "--volume", "builtin:head:16", "--mesh", "builtin:scalpel:200"}, {"--output", "-"}}};
+        {{"plan", "--volume", "builtin:head:18", "--target", "0,0,0"}, {"--tip", "-1,2,3"}},
+        {{"detect", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:200"}, {"--threads", "1"}},
+        {{"detect", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:200"}, {"--output", "-"}}};
     for (const auto& [command, twice] : cases) {
         Arguments all = command;
         all.insert(all.end(), twice.begin(), twice.end());
@@ -176,7 +176,7 @@ TEST_F(ArgumentsTest, NoCurrentFolder) {
     std::filesystem::current_path(path("gone"));
     std::filesystem::remove(path("gone"));
     const std::string text = refused(1, {"make", "mesh", "builtin:scalpel:200", "x.stl"});
-    const std::string rows = refused(1, {"detect", "--volume", "builtin:head:16", "--mesh", "builtin:scalpel:200",
+    const std::string rows = refused(1, {"detect", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:200",
                                          "--count", "cpu", "--output", "x.csv"});
     std::filesystem::current_path(before);
     EXPECT_THAT(text, AllOf(HasSubstr("'x.stl'"), HasSubstr("voxtact make")));
@@ -204,7 +204,7 @@ TEST_F(ArgumentsTest, OpacityOnTheCommandLine) {
 TEST_F(ArgumentsTest, BuiltinsThatAreNot) {
     EXPECT_THAT(refused(2, {"detect", "--volume", "builtin:brain", "--mesh", "builtin:scalpel"}),
                 AllOf(HasSubstr("brain"), HasSubstr("head"), HasSubstr("sphere")));
-    EXPECT_THAT(refused(2, {"detect", "--volume", "builtin:head:16", "--mesh", "builtin:scalpel:3069"}),
+    EXPECT_THAT(refused(2, {"detect", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:3069"}),
                 AllOf(HasSubstr("3068"), HasSubstr("3070")));
     EXPECT_THAT(refused(2, {"make", "mesh", "scalpel", path("x.stl")}), HasSubstr("builtin:"));
 }
@@ -212,7 +212,7 @@ TEST_F(ArgumentsTest, BuiltinsThatAreNot) {
 TEST_F(ArgumentsTest, NoDeviceNamesTheDriverPackage) {
     const RunOptions none{.environment = {{"VK_ICD_FILENAMES", "/nonexistent"}, {"VK_DRIVER_FILES", "/nonexistent"}}};
     for (const Arguments& arguments :
-         {Arguments{"detect", "--volume", "builtin:head:16", "--mesh", "builtin:scalpel:500", "--count", "query"},
+         {Arguments{"detect", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:500", "--count", "query"},
           Arguments{"devices"}}) {
         EXPECT_THAT(refused(1, arguments, none), AllOf(HasSubstr("mesa-vulkan-drivers"), HasSubstr("lavapipe")));
     }

@@ -18,7 +18,7 @@ constexpr const char* kIdentity = "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1\n";
 class BadFilesTest : public CliTest {
   protected:
     static std::string badDetect(const Arguments& more) {
-        Arguments all{"detect", "--volume", "builtin:head:16", "--mesh", "builtin:scalpel:500"};
+        Arguments all{"detect", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:500"};
         all.insert(all.end(), more.begin(), more.end());
         return refused(1, all);
     }
@@ -38,7 +38,7 @@ class BadVolumesTest : public CliDeviceTest {
 TEST_F(BadFilesTest, MissingFilesAreNamed) {
     EXPECT_THAT(refused(1, {"detect", "--volume", path("no.nii"), "--mesh", "builtin:scalpel"}),
                 AllOf(HasSubstr("voxtact detect: "), HasSubstr(path("no.nii"))));
-    EXPECT_THAT(refused(1, {"detect", "--volume", "builtin:head:16", "--mesh", path("no.stl")}),
+    EXPECT_THAT(refused(1, {"detect", "--volume", "builtin:head:18", "--mesh", path("no.stl")}),
                 HasSubstr(path("no.stl")));
     for (const char* option : {"--poses", "--camera", "--transfer-function"}) {
         EXPECT_THAT(badDetect({"--projection", "view", option, path("no.txt")}), HasSubstr(path("no.txt")));
@@ -53,7 +53,7 @@ TEST_F(BadFilesTest, PipesAndDevicesAreRefused) {
     }
     EXPECT_THAT(refused(1, {"detect", "--volume", path("pipe.nii"), "--mesh", "builtin:scalpel:500"}),
                 AllOf(HasSubstr(path("pipe.nii")), HasSubstr(kPipe)));
-    EXPECT_THAT(refused(1, {"detect", "--volume", "builtin:head:16", "--mesh", path("pipe.stl")}),
+    EXPECT_THAT(refused(1, {"detect", "--volume", "builtin:head:18", "--mesh", path("pipe.stl")}),
                 AllOf(HasSubstr(path("pipe.stl")), HasSubstr(kPipe)));
     for (const char* option : {"--poses", "--camera", "--transfer-function", "--labels"}) {
         EXPECT_THAT(badDetect({"--projection", "view", option, path("pipe")}),
@@ -106,7 +106,7 @@ TEST_F(BadFilesTest, MeshesThatAreNone) {
     writeText(path("empty.obj"), "");
     writeText(path("notes.stl"), "this is not a mesh");
     for (const char* name : {"empty.obj", "notes.stl"}) {
-        EXPECT_THAT(refused(1, {"detect", "--volume", "builtin:head:16", "--mesh", path(name)}), HasSubstr(path(name)));
+        EXPECT_THAT(refused(1, {"detect", "--volume", "builtin:head:18", "--mesh", path(name)}), HasSubstr(path(name)));
     }
 }
 

@@ -20,7 +20,7 @@ class BenchTest : public CliDeviceTest {
   protected:
     /// A scene that takes a moment, and what is added.
     static Arguments bench(const std::string& poses, const std::string& repetitions, const Arguments& more = {}) {
-        Arguments all{"bench",  "--progress",          "never",    "--certified", "--volume",      "builtin:head:32",
+        Arguments all{"bench",  "--progress",          "never",    "--certified", "--volume",      "builtin:head:30",
                       "--mesh", "builtin:scalpel:500", "--number", poses,         "--repetitions", repetitions};
         all.insert(all.end(), more.begin(), more.end());
         return all;
@@ -46,7 +46,7 @@ class BenchTest : public CliDeviceTest {
 
 TEST_F(BenchTest, EveryCertifiedEngineMissesNothing) {
     const Json result = json(opaque(bench("24", "2")));
-    EXPECT_EQ(result["scene"]["volume"], "builtin:head:32");
+    EXPECT_EQ(result["scene"]["volume"], "builtin:head:30");
     EXPECT_EQ(result["scene"]["opacity"], "40:0,80:1");
     EXPECT_EQ(result["scene"]["tf_domain"], Json({0.0, 255.0}));
     for (const char* fact : {"device", "driver", "cpu", "cpu_threads"}) {
@@ -123,7 +123,7 @@ TEST_F(BenchTest, WithoutADeviceTheHostIsMeasured) {
 
 /// Every question, by the host and by the device, and nothing of it otherwise than the host's.
 TEST_F(BenchTest, LatencyIsOfEveryEngineAndVerified) {
-    const Json result = json({"bench", "--latency", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:300",
+    const Json result = json({"bench", "--latency", "--volume", "builtin:head:30", "--mesh", "builtin:scalpel:300",
                               "--opacity", "40:0,80:1", "--number", "300", "--time-limit", "3"});
     EXPECT_EQ(result["scene"]["ticks"], 300);
     std::map<std::string, int> rows;
@@ -154,7 +154,7 @@ TEST_F(BenchTest, LatencyIsOfEveryEngineAndVerified) {
 }
 
 TEST_F(BenchTest, LatencyRefusesWhatItHasNoUseFor) {
-    const Arguments latency{"bench",  "--latency",           "--volume", "builtin:head:16",
+    const Arguments latency{"bench",  "--latency",           "--volume", "builtin:head:18",
                             "--mesh", "builtin:scalpel:100", "--number", "4"};
     const auto with = [&](const Arguments& more) {
         Arguments all = latency;
@@ -172,7 +172,7 @@ TEST_F(BenchTest, LatencyRefusesWhatItHasNoUseFor) {
 
 TEST_F(BenchTest, BatchesOfEverySizeAndVerified) {
     const Json result =
-        json({"bench", "--batches", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:300", "--opacity",
+        json({"bench", "--batches", "--volume", "builtin:head:30", "--mesh", "builtin:scalpel:300", "--opacity",
               "40:0,80:1", "--number", "30", "--repetitions", "2", "--time-limit", "3600"});
     std::map<std::string, std::vector<int>> sizes;
     for (const Json& row : result["rows"]) {
@@ -189,14 +189,14 @@ TEST_F(BenchTest, BatchesOfEverySizeAndVerified) {
         EXPECT_EQ(sizes[engine], (std::vector<int>{1, 10, 30})) << engine;
     }
     // No more than fit.
-    const Json cut = json({"bench", "--batches", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:300",
+    const Json cut = json({"bench", "--batches", "--volume", "builtin:head:30", "--mesh", "builtin:scalpel:300",
                            "--opacity", "40:0,80:1", "--number", "100000", "--time-limit", "0.01"});
     EXPECT_LT(cut["rows"].size(), 6 * sizes.size()) << "all sizes, 100000 poses in 10 ms";
     EXPECT_THAT(result["notes"].dump(), Not(HasSubstr("are left out")));
     EXPECT_THAT(cut["notes"].dump(), HasSubstr(" are left out, as they do not fit in --time-limit"));
     // Not even of the smallest batch.
     const Json few =
-        json({"bench", "--batches", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:300", "--opacity",
+        json({"bench", "--batches", "--volume", "builtin:head:30", "--mesh", "builtin:scalpel:300", "--opacity",
               "40:0,80:1", "--number", "1", "--time-limit", "0.1", "--repetitions", "100000"});
     for (const Json& row : few["rows"]) {
         EXPECT_LT(row["samples"], 100'000) << row;
@@ -206,14 +206,14 @@ TEST_F(BenchTest, BatchesOfEverySizeAndVerified) {
 
 TEST_F(BenchTest, WhereNothingTouchesANoteSaysSo) {
     for (const char* mode : {"--batches", "--outputs"}) {
-        const std::string none = output({"bench", mode, "--volume", "builtin:head:16", "--mesh", "builtin:scalpel:100",
+        const std::string none = output({"bench", mode, "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:100",
                                          "--number", "4", "--repetitions", "1", "--opacity", "0:0,255:0"});
         EXPECT_THAT(none, HasSubstr("# nothing touches on any pose: that all agree says little")) << mode;
     }
 }
 
 TEST_F(BenchTest, WhatCannotBeDoneIsOneLine) {
-    EXPECT_THAT(refused(2, {"bench", "--volume", "builtin:head:16"}),
+    EXPECT_THAT(refused(2, {"bench", "--volume", "builtin:head:18"}),
                 AllOf(HasSubstr("--paper has its own scenes"), HasSubstr("--certified")));
     EXPECT_THAT(refused(2, bench("8", "1", {"--volume", "builtin:sphere"})), HasSubstr("one --volume"));
     EXPECT_THAT(refused(2, bench("8", "0")), HasSubstr("--repetitions"));

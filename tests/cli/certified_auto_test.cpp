@@ -28,7 +28,7 @@ class CertifiedAutoTest : public CliDeviceTest {
                                 {"VK_INSTANCE_LAYERS", "VK_LAYER_VOXTACT_gpu"}}};
     }
     [[nodiscard]] Arguments detect(const Arguments& more) const {
-        Arguments all{"detect",  "--volume",       "builtin:head:32", "--mesh", "builtin:scalpel:500",
+        Arguments all{"detect",  "--volume",       "builtin:head:30", "--mesh", "builtin:scalpel:500",
                       "--poses", path("poses.txt")};
         all.insert(all.end(), more.begin(), more.end());
         return all;

@@ -163,7 +163,7 @@ TEST_F(ChunksTest, MotionsAreTheSame) {
     for (const char* format : {"csv", "json"}) {
         const Arguments motion{"motion",
                                "--volume",
-                               "builtin:head:16",
+                               "builtin:head:18",
                                "--volume",
                                "builtin:sphere:16",
                                "--mesh",
@@ -195,10 +195,10 @@ TEST_F(ChunksTest, MotionsAreTheSame) {
         EXPECT_THAT(again.err, HasSubstr("were there already"));
         removeRun();
     }
-    EXPECT_THAT(refused(2, {"motion", "--volume", "builtin:head:16", "--mesh", "builtin:scalpel:100", "--poses",
+    EXPECT_THAT(refused(2, {"motion", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:100", "--poses",
                             path("poses.txt"), "--resume", path("run"), "--timing"}),
                 HasSubstr("--timing: not with --resume"));
-    EXPECT_THAT(refused(2, {"motion", "--volume", "builtin:head:16", "--mesh", "builtin:scalpel:100", "--poses",
+    EXPECT_THAT(refused(2, {"motion", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:100", "--poses",
                             path("poses.txt"), "--resume", path("run"), "--count", "compute", "--validate"}),
                 HasSubstr("--validate: not with --resume"));
     EXPECT_FALSE(fs::exists(path("run")));
@@ -336,7 +336,7 @@ TEST_F(ChunksTest, MergeSaysWhatIsMissing) {
 TEST_F(ChunksTest, MergeLeavesWhatTheRunHasRead) {
     writeText(path("poses.txt"), "1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1\n");
     output({"make", "mesh", "builtin:scalpel:100", path("tool.stl")});
-    output({"make", "volume", "builtin:head:16", path("head.nii")});
+    output({"make", "volume", "builtin:head:18", path("head.nii")});
     output({"detect", "--volume", path("head.nii"), "--mesh", path("tool.stl"), "--poses", path("poses.txt"), "--count",
             "cpu", "--resume", path("run"), "--shard", "1/1"});
     for (const char* name : {"poses.txt", "tool.stl", "head.nii"}) {

@@ -21,7 +21,7 @@ class ClearanceTest : public CliTest {
                                      "1 0 0 0  0 1 0 0  0 0 1 500  0 0 0 1\n");
     }
     [[nodiscard]] Arguments detect(const Arguments& more) const {
-        Arguments all{"detect",  "--volume",        "builtin:head:32", "--mesh", "builtin:scalpel:300",
+        Arguments all{"detect",  "--volume",        "builtin:head:30", "--mesh", "builtin:scalpel:300",
                       "--poses", path("poses.txt"), "--format",        "csv"};
         all.insert(all.end(), more.begin(), more.end());
         return all;
@@ -97,7 +97,7 @@ TEST_F(ClearanceTest, AMarginIsAnsweredLikeATouch) {
 }
 
 TEST_F(ClearanceTest, WritesTheClosestPoints) {
-    output({"make", "volume", "builtin:head:16", path("labels.nii.gz")});
+    output({"make", "volume", "builtin:head:18", path("labels.nii.gz")});
     output(detect({"--clearance", "--closest", path("closest.csv"), "--labels", path("labels.nii.gz")}));
     const std::string text = readText(path("closest.csv"));
     EXPECT_EQ(linesOf(text).at(0), "pose,mesh,volume,triangle,mesh_x,mesh_y,mesh_z,volume_x,volume_y,volume_z,label,"
@@ -127,7 +127,7 @@ TEST_F(ClearanceTest, WritesTheClosestPoints) {
 TEST_F(ClearanceTest, APlyFileHasEachNameInALine) {
     const std::string mesh = path("two\nelement lines.stl");
     output({"make", "mesh", "builtin:scalpel:300", mesh});
-    output({"detect", "--volume", "builtin:head:32", "--mesh", mesh, "--poses", path("poses.txt"), "--clearance",
+    output({"detect", "--volume", "builtin:head:30", "--mesh", mesh, "--poses", path("poses.txt"), "--clearance",
             "--closest", path("named.ply")});
     const std::vector<std::string> ply = linesOf(readText(path("named.ply")));
     EXPECT_EQ(std::ranges::count_if(ply, [](const std::string& line) { return line.starts_with("element"); }), 2);
@@ -135,7 +135,7 @@ TEST_F(ClearanceTest, APlyFileHasEachNameInALine) {
 }
 
 TEST_F(ClearanceTest, WritesTheClearanceToLabels) {
-    output({"make", "volume", "builtin:head:32", path("labels.nii.gz")});
+    output({"make", "volume", "builtin:head:30", path("labels.nii.gz")});
     const std::string whole = rows({"--clearance"})[1].at("clearance_lo");
     const auto labelled = [&](const Arguments& more) {
         Arguments how{"--clearance", "--labels", path("labels.nii.gz"), "--label-clearance", path("labels.csv")};
@@ -169,7 +169,7 @@ TEST_F(ClearanceTest, WritesTheClearanceToLabels) {
 }
 
 TEST_F(ClearanceTest, KnowsLabelsByName) {
-    output({"make", "volume", "builtin:head:32", path("labels.nii.gz")});
+    output({"make", "volume", "builtin:head:30", path("labels.nii.gz")});
     writeText(path("names.txt"), "70 skull\n90 brain\n120 brain\n999 nowhere\n");
     const auto measured = [&](const std::string& to) {
         return detect({"--clearance", "--labels", path("labels.nii.gz"), "--label-names", path("names.txt"),
@@ -189,7 +189,7 @@ TEST_F(ClearanceTest, KnowsLabelsByName) {
 }
 
 TEST_F(ClearanceTest, RefusesALabelMapOnAnotherGrid) {
-    output({"make", "volume", "builtin:head:16", path("coarse.nii.gz")});
+    output({"make", "volume", "builtin:head:18", path("coarse.nii.gz")});
     EXPECT_THAT(
         refused(1, detect({"--clearance", "--labels", path("coarse.nii.gz"), "--label-clearance", path("other.csv")})),
         HasSubstr("--label-clearance: '" + path("coarse.nii.gz") +
@@ -312,7 +312,7 @@ TEST_F(ClearanceDeviceTest, AClearanceIsTheDevicesToo) {
 
 /// The host's rows, with bounds that overlap.
 TEST_F(ClearanceDeviceTest, TheClearanceToLabelsIsTheDevicesToo) {
-    output({"make", "volume", "builtin:head:32", path("labels.nii.gz")});
+    output({"make", "volume", "builtin:head:30", path("labels.nii.gz")});
     const auto labelled = [&](const Arguments& more) {
         Arguments asked{"--clearance",         "--tolerance",       "0.3",        "--labels",
                         path("labels.nii.gz"), "--label-clearance", path("l.csv")};
@@ -350,7 +350,7 @@ TEST_F(ClearanceDeviceTest, TheClearanceToLabelsIsTheDevicesToo) {
                     path("l.csv"), "--answer", "yes-no"})[0]
                   .count("labels"),
               0U);
-    output({"make", "volume", "builtin:head:16", path("coarse.nii.gz")});
+    output({"make", "volume", "builtin:head:18", path("coarse.nii.gz")});
     EXPECT_THAT(refused(1, detect({"--clearance", "--labels", path("coarse.nii.gz"), "--label-clearance",
                                    path("other.csv"), "--count", "compute"})),
                 HasSubstr("--label-clearance: '" + path("coarse.nii.gz") + "': the label map is not on the grid"));

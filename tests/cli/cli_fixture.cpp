@@ -242,7 +242,7 @@ void CliDeviceTest::SetUp() {
 }
 
 Arguments CliDeviceTest::detect(const Arguments& more) {
-    Arguments all{"detect", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:500"};
+    Arguments all{"detect", "--volume", "builtin:head:30", "--mesh", "builtin:scalpel:500"};
     if (std::find(more.begin(), more.end(), "--count") == more.end()) {
         all.insert(all.end(), {"--count", "query"});
     }
@@ -252,7 +252,7 @@ Arguments CliDeviceTest::detect(const Arguments& more) {
 
 std::string CliDeviceTest::poses(int count) const {
     std::string file = path("poses.txt");
-    output({"make", "poses", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:500", "--number",
+    output({"make", "poses", "--volume", "builtin:head:30", "--mesh", "builtin:scalpel:500", "--number",
             std::to_string(count), "--seed", "7", "--output", file});
     return file;
 }

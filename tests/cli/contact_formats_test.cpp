@@ -15,14 +15,14 @@ using testing::HasSubstr;
 class ContactFormatsTest : public CliTest {
   protected:
     ContactFormatsTest() {
-        output({"make", "poses", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:500", "--number", "30",
+        output({"make", "poses", "--volume", "builtin:head:30", "--mesh", "builtin:scalpel:500", "--number", "30",
                 "--seed", "7", "--output", path("poses.txt")});
     }
     /// The file, and the CSV of the same contacts (without its header).
     [[nodiscard]] std::vector<std::vector<std::string>> contacts(const std::string& file,
                                                                  const Arguments& more = {}) const {
         for (const std::string& to : {file, path("contacts.csv")}) {
-            Arguments all{"detect",  "--volume",        "builtin:head:32", "--mesh", "builtin:scalpel:500",
+            Arguments all{"detect",  "--volume",        "builtin:head:30", "--mesh", "builtin:scalpel:500",
                           "--poses", path("poses.txt"), "--count",         "cpu",    "--contacts",
                           to,        "--output",        path("rows.csv")};
             all.insert(all.end(), more.begin(), more.end());
@@ -165,7 +165,7 @@ TEST_F(ContactFormatsTest, MarkupsHaveTheContactsAndTheBoxes) {
 TEST_F(ContactFormatsTest, NamesThatAreAwkwardInXml) {
     const std::string name = path("a--b <&> \"c\" \xEF\xBF\xBE\xEF\xBF\xBF.stl");
     output({"make", "mesh", "builtin:scalpel:500", name});
-    output({"detect", "--volume", "builtin:head:32", "--mesh", name, "--count", "cpu", "--contacts", path("c.vtp")});
+    output({"detect", "--volume", "builtin:head:30", "--mesh", name, "--count", "cpu", "--contacts", path("c.vtp")});
     const std::string text = readText(path("c.vtp"));
     const std::string comment = text.substr(0, text.find("<VTKFile"));
     EXPECT_THAT(comment, HasSubstr("a- -b &lt;&amp;&gt; &quot;c&quot; \\xef\\xbf\\xbe\\xef\\xbf\\xbf.stl"));

@@ -35,11 +35,11 @@ class DetectOutputsTest : public CliTest {
   protected:
     DetectOutputsTest() {
         writeText(path("poses.txt"), kPoses);
-        output({"make", "volume", "builtin:head:16", map()});
+        output({"make", "volume", "builtin:head:18", map()});
     }
     [[nodiscard]] std::string map() const { return path("map.nii.gz"); }
     [[nodiscard]] Arguments detect(const Arguments& more) const {
-        Arguments all{"detect",  "--volume",        "builtin:head:32", "--mesh", "builtin:scalpel:500",
+        Arguments all{"detect",  "--volume",        "builtin:head:30", "--mesh", "builtin:scalpel:500",
                       "--poses", path("poses.txt"), "--count",         "cpu"};
         all.insert(all.end(), more.begin(), more.end());
         return all;
@@ -55,7 +55,7 @@ class DetectOutputsTest : public CliTest {
     }
     /// The same scene answered by the library.
     [[nodiscard]] BatchAnswer answer(Projection projection) const {
-        const VolumeData volumeData = *makeBuiltinVolume("head:32");
+        const VolumeData volumeData = *makeBuiltinVolume("head:30");
         const cpu::Volume volume = *cpu::Volume::create(volumeData.view());
         const cpu::Mesh mesh = *cpu::Mesh::create(makeBuiltinMesh("scalpel:500")->view());
         const std::vector<ControlPoint> points{{0, 0}, {255, 1}};
@@ -427,7 +427,7 @@ class DetectOutputsOnDeviceTest : public CliDeviceTest {
 
 TEST_F(DetectOutputsOnDeviceTest, ComputeSaysWhatTheHostSays) {
     writeText(path("poses.txt"), kPoses);
-    output({"make", "volume", "builtin:head:16", path("map.nii")});
+    output({"make", "volume", "builtin:head:18", path("map.nii")});
     const auto host = rowsOf(output(outputs("cpu")));
     EXPECT_THAT(host, SizeIs(7));
     for (const char* batch : {"1", "4", "1024"}) {
@@ -447,7 +447,7 @@ TEST_F(DetectOutputsOnDeviceTest, ComputeSaysWhatTheHostSays) {
 
 TEST_F(DetectOutputsOnDeviceTest, EveryMethodHasThem) {
     writeText(path("poses.txt"), kPoses);
-    output({"make", "volume", "builtin:head:16", path("map.nii")});
+    output({"make", "volume", "builtin:head:18", path("map.nii")});
     const auto query = rowsOf(output(outputs("query", {"--validate"})));
     for (const char* method : {"atomic", "query-any"}) {
         const auto other = rowsOf(output(outputs(method, {"--validate", "--batch", "2"})));

@@ -64,7 +64,7 @@ TEST_F(DetectPairsTest, NoAnswerChanges) {
           Arguments{"--count", "query-any"}, Arguments{"--count", "atomic", "--projection", "dominant-axis"}}) {
         Arguments skipping{"detect",
                            "--volume",
-                           "builtin:head:32",
+                           "builtin:head:30",
                            "--volume",
                            "builtin:ct:32",
                            "--mesh",

@@ -49,7 +49,7 @@ TEST_F(DetectTest, OneRowWithItsHeader) {
     const auto lines = linesOf(output(detect()));
     ASSERT_EQ(lines.size(), 2U);
     EXPECT_EQ(lines[0], "pose,mesh,volume,hit,count,exact,method,projection");
-    EXPECT_THAT(lines[1], MatchesRegex("0,builtin:scalpel:500,builtin:head:32,1,[1-9][0-9]*,1,(query|atomic),view"));
+    EXPECT_THAT(lines[1], MatchesRegex("0,builtin:scalpel:500,builtin:head:30,1,[1-9][0-9]*,1,(query|atomic),view"));
 }
 
 TEST_F(DetectTest, MethodsAgree) {
@@ -92,14 +92,14 @@ TEST_F(DetectTest, BatchesOfAnySizeGiveTheSameRows) {
 }
 
 TEST_F(DetectTest, EveryMeshAgainstEveryVolume) {
-    const auto all = rows({"detect", "--volume", "builtin:head:32", "--volume", "builtin:ct:32", "--mesh",
+    const auto all = rows({"detect", "--volume", "builtin:head:30", "--volume", "builtin:ct:32", "--mesh",
                            "builtin:scalpel:500", "--mesh", "builtin:ellipsoid:500", "--poses", poses(3)});
     ASSERT_EQ(all.size(), 12U);
     std::vector<std::string> pairs;
     for (const auto& row : all) {
         pairs.push_back(row[kVolume] + " " + row[kMesh] + " " + row[kPose]);
     }
-    EXPECT_EQ(pairs.front(), "builtin:head:32 builtin:scalpel:500 0");
+    EXPECT_EQ(pairs.front(), "builtin:head:30 builtin:scalpel:500 0");
     EXPECT_EQ(pairs.back(), "builtin:ct:32 builtin:ellipsoid:500 2");
     std::sort(pairs.begin(), pairs.end());
     EXPECT_EQ(std::unique(pairs.begin(), pairs.end()), pairs.end());
@@ -113,7 +113,7 @@ TEST_F(DetectTest, EveryMeshAgainstEveryVolume) {
 
 TEST_F(DetectTest, ProjectionsAndTheirDefaults) {
     const auto projectionOf = [](const Arguments& arguments) { return rows(arguments).at(0).at(kProjection); };
-    const Arguments plain{"detect", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:500"};
+    const Arguments plain{"detect", "--volume", "builtin:head:30", "--mesh", "builtin:scalpel:500"};
     const auto with = [&](const Arguments& more) {
         Arguments all = plain;
         all.insert(all.end(), more.begin(), more.end());
@@ -139,7 +139,7 @@ TEST_F(DetectTest, ProjectionsAndTheirDefaults) {
 
 TEST_F(DetectTest, ConservativeIsTheSameOnDeviceAndHost) {
     const std::string file = poses(12);
-    const Arguments plain{"detect",  "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:500",
+    const Arguments plain{"detect",  "--volume", "builtin:head:30", "--mesh", "builtin:scalpel:500",
                           "--poses", file,       "--resolution",    "0.0625"};
     const auto by = [&](const char* method) {
         Arguments all = plain;
@@ -162,7 +162,7 @@ TEST_F(DetectTest, NoOverlapIsNoHit) {
     writeText(path("far.txt"), "1 0 0 1000 0 1 0 0 0 0 1 0 0 0 0 1\n");
     const Ran ran = run(detect({"--poses", path("far.txt")}));
     EXPECT_EQ(ran.status, 0);
-    EXPECT_THAT(ran.err, HasSubstr("note: builtin:scalpel:500 does not come near builtin:head:32 at its pose"));
+    EXPECT_THAT(ran.err, HasSubstr("note: builtin:scalpel:500 does not come near builtin:head:30 at its pose"));
     const auto far = fieldsOf(linesOf(ran.out).at(1));
     EXPECT_EQ(far.at(kHit) + far.at(kCount), "00");
     // However far it is, it is no larger.
@@ -173,7 +173,7 @@ TEST_F(DetectTest, NoOverlapIsNoHit) {
 TEST_F(DetectTest, WhatIsWithinADistanceComesNear) {
     writeText(path("far.txt"), "1 0 0 300 0 1 0 0 0 0 1 0 0 0 0 1\n");
     const auto ask = [&](const Arguments& more) {
-        Arguments all{"detect",  "--volume",      "builtin:head:32", "--mesh", "builtin:scalpel:500",
+        Arguments all{"detect",  "--volume",      "builtin:head:30", "--mesh", "builtin:scalpel:500",
                       "--poses", path("far.txt"), "--count",         "cpu"};
         all.insert(all.end(), more.begin(), more.end());
         return run(all);
@@ -187,8 +187,8 @@ TEST_F(DetectTest, WhatIsWithinADistanceComesNear) {
 }
 
 TEST_F(DetectTest, LabelsAreOfAFile) {
-    EXPECT_THAT(refused(2, detect({"--labels", "builtin:head:32"})),
-                HasSubstr("--labels takes a file, and 'builtin:head:32' is none; voxtact make volume writes"));
+    EXPECT_THAT(refused(2, detect({"--labels", "builtin:head:30"})),
+                HasSubstr("--labels takes a file, and 'builtin:head:30' is none; voxtact make volume writes"));
 }
 
 TEST_F(DetectTest, ThresholdAndTransferFunctionDecide) {
@@ -258,7 +258,7 @@ TEST_F(DetectTest, BoundaryVariantsAgreeWhereItIsTransparent) {
 
 TEST_F(DetectTest, MeshSpaceAndScale) {
     output({"make", "mesh", "builtin:scalpel:500", path("scalpel.ply")});
-    const Arguments file{"detect",       "--volume", "builtin:head:32", "--mesh", path("scalpel.ply"),
+    const Arguments file{"detect",       "--volume", "builtin:head:30", "--mesh", path("scalpel.ply"),
                          "--projection", "view",     "--size",          "256x256"};
     const auto with = [&](const Arguments& more) {
         Arguments all = file;

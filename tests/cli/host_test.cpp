@@ -17,13 +17,13 @@ using testing::StartsWith;
 class HostTest : public CliTest {
   protected:
     static Arguments detect(const Arguments& more) {
-        Arguments all{"detect", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:500"};
+        Arguments all{"detect", "--volume", "builtin:head:30", "--mesh", "builtin:scalpel:500"};
         all.insert(all.end(), more.begin(), more.end());
         return all;
     }
     [[nodiscard]] std::string poses(int count) const {
         std::string file = path("poses.txt");
-        output({"make", "poses", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:500", "--number",
+        output({"make", "poses", "--volume", "builtin:head:30", "--mesh", "builtin:scalpel:500", "--number",
                 std::to_string(count), "--seed", "7", "--output", file});
         return file;
     }
@@ -36,7 +36,7 @@ TEST_F(HostTest, CountsWithoutADriver) {
     const auto lines = linesOf(output(detect({"--count", "cpu"}), noDriver_));
     ASSERT_EQ(lines.size(), 2U);
     EXPECT_EQ(lines[0], "pose,mesh,volume,hit,count,exact,method,projection");
-    EXPECT_THAT(lines[1], MatchesRegex("0,builtin:scalpel:500,builtin:head:32,1,[1-9][0-9]*,1,cpu,conservative"));
+    EXPECT_THAT(lines[1], MatchesRegex("0,builtin:scalpel:500,builtin:head:30,1,[1-9][0-9]*,1,cpu,conservative"));
 }
 
 /// glibc fills what malloc gives out and takes back with a byte and its complement: a mesh beside the volume is a
@@ -59,7 +59,7 @@ TEST_F(HostTest, FarPosesAreMissesWhateverMemoryHeld) {
         ASSERT_EQ(lines.size(), kPlaces.size() + 1);
         for (std::size_t pose = 0; pose < kPlaces.size(); ++pose) {
             EXPECT_EQ(lines[pose + 1],
-                      std::to_string(pose) + ",builtin:scalpel:500,builtin:head:32,0,0,1,cpu,conservative")
+                      std::to_string(pose) + ",builtin:scalpel:500,builtin:head:30,0,0,1,cpu,conservative")
                 << "filled with " << fill;
         }
     }

@@ -14,7 +14,7 @@ using Json = nlohmann::json;
 class LocalizeCommandTest : public CliDeviceTest {
   protected:
     static Arguments localize(const Arguments& more = {}) {
-        Arguments all{"compare", "--localize", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:500", "--size",
+        Arguments all{"compare", "--localize", "--volume", "builtin:head:30", "--mesh", "builtin:scalpel:500", "--size",
                       "128x128", "--progress", "never",    "--cache",         "off",    "--repetitions",       "1"};
         all.insert(all.end(), more.begin(), more.end());
         return all;

@@ -26,7 +26,7 @@ constexpr const char* kSecond = "0.6491305140489306 0.12842130121046663 -0.74975
 class MakeTest : public CliTest {
   protected:
     static std::string makePoses(const Arguments& more) {
-        Arguments all{"make", "poses", "--volume", "builtin:head:16", "--mesh", "builtin:scalpel:500"};
+        Arguments all{"make", "poses", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:500"};
         all.insert(all.end(), more.begin(), more.end());
         return output(all);
     }
@@ -50,11 +50,11 @@ std::vector<double> numbersInText(const std::string& line) {
 }
 
 TEST_F(MakeDetectTest, MeshFilesAreTheBuiltin) {
-    const std::string expected = count("builtin:head:32", "builtin:scalpel:500");
+    const std::string expected = count("builtin:head:30", "builtin:scalpel:500");
     EXPECT_NE(expected, "0");
     for (const char* name : {"scalpel.stl", "scalpel.obj", "scalpel.ply"}) {
         output({"make", "mesh", "builtin:scalpel:500", path(name)});
-        EXPECT_EQ(count("builtin:head:32", path(name)), expected) << name;
+        EXPECT_EQ(count("builtin:head:30", path(name)), expected) << name;
     }
 }
 
@@ -71,7 +71,7 @@ TEST_F(MakeDetectTest, VolumeFilesAreTheBuiltin) {
 
 TEST_F(MakeTest, EndingsThatAreNone) {
     EXPECT_THAT(refused(2, {"make", "mesh", "builtin:scalpel:500", path("scalpel.docx")}), HasSubstr("scalpel.docx"));
-    EXPECT_THAT(refused(2, {"make", "volume", "builtin:head:16", path("head.png")}), HasSubstr("head.png"));
+    EXPECT_THAT(refused(2, {"make", "volume", "builtin:head:18", path("head.png")}), HasSubstr("head.png"));
     EXPECT_EQ(filesInFolder(), 0U);
 }
 
@@ -89,7 +89,7 @@ TEST_F(MakeTest, WhatCannotBeMadeIsNamedAsItWasGiven) {
 TEST_F(MakeTest, PosesSayWhereTheyComeFrom) {
     const auto lines = linesOf(makePoses({"--number", "3", "--seed", "18446744073709551615"}));
     ASSERT_EQ(lines.size(), 5U);
-    EXPECT_THAT(lines[0], AllOf(HasSubstr("seed 18446744073709551615"), HasSubstr("builtin:head:16"),
+    EXPECT_THAT(lines[0], AllOf(HasSubstr("seed 18446744073709551615"), HasSubstr("builtin:head:18"),
                                 HasSubstr("builtin:scalpel:500")));
 }
 
@@ -143,21 +143,21 @@ TEST_F(MakeTest, PosesAreRigidAndNearTheVolume) {
 }
 
 TEST_F(MakeTest, PosesOfOnePairOnly) {
-    EXPECT_THAT(refused(2, {"make", "poses", "--volume", "builtin:head:16", "--volume", "builtin:ct:16", "--mesh",
+    EXPECT_THAT(refused(2, {"make", "poses", "--volume", "builtin:head:18", "--volume", "builtin:ct:16", "--mesh",
                             "builtin:scalpel:500"}),
                 HasSubstr("one --volume"));
     for (const char* seed : {"-1", "1.5", "0x10", "18446744073709551616"}) {
-        EXPECT_THAT(refused(2, {"make", "poses", "--volume", "builtin:head:16", "--mesh", "builtin:scalpel:500",
+        EXPECT_THAT(refused(2, {"make", "poses", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:500",
                                 "--seed", seed}),
                     AllOf(HasSubstr("--seed"), HasSubstr(seed)));
     }
     EXPECT_THAT(
-        refused(2, {"make", "poses", "--volume", "builtin:head:16", "--mesh", "builtin:scalpel:500", "--number", "0"}),
+        refused(2, {"make", "poses", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:500", "--number", "0"}),
         HasSubstr("--number"));
 }
 
 TEST_F(MakeTest, InterruptedItLeavesNoFile) {
-    const Arguments poses{"make",   "poses", "--volume", "builtin:head:16", "--mesh",   "builtin:scalpel:500",
+    const Arguments poses{"make",   "poses", "--volume", "builtin:head:18", "--mesh",   "builtin:scalpel:500",
                           "--seed", "7",     "--number", "2000000",         "--output", path("made.txt")};
     const Arguments volume{"make", "volume", "builtin:noise:200", path("made.nii.gz")};
     for (const auto& [command, signal] :

@@ -19,7 +19,7 @@ TEST_F(MessagesTest, MisspeltNamesAreGuessed) {
     EXPECT_THAT(refused(2, {"inof"}), HasSubstr("did you mean info?"));
     EXPECT_THAT(refused(2, {"make", "pose"}), HasSubstr("did you mean poses?"));
     EXPECT_THAT(refused(2, {"xyz"}), Not(HasSubstr("did you mean")));
-    const Arguments pair{"detect", "--volume", "builtin:head:16", "--mesh", "builtin:scalpel:500"};
+    const Arguments pair{"detect", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:500"};
     const auto guess = [&](const char* option) {
         Arguments all = pair;
         all.insert(all.end(), {option, "1"});
@@ -49,7 +49,7 @@ TEST_F(MessagesTest, LongAndBrokenArgumentsAreNotEchoed) {
     }
     for (const Arguments& arguments :
          {Arguments{big}, Arguments{"detect", "--count", big}, Arguments{"detect", "--" + big}, Arguments{"info", big},
-          Arguments{"detect", "--size", big}, Arguments{"detect", "--volume", "builtin:head:16", "--mesh", big}}) {
+          Arguments{"detect", "--size", big}, Arguments{"detect", "--volume", "builtin:head:18", "--mesh", big}}) {
         const Ran ran = run(arguments);
         EXPECT_NE(ran.status, 0);
         EXPECT_LT(ran.err.size(), 5000U);

@@ -22,7 +22,7 @@ class MotionTest : public CliTest {
                                     "0 -1 0 50  1 0 0 0  0 0 1 200  0 0 0 1\n");
     }
     [[nodiscard]] Arguments motion(const Arguments& more) const {
-        Arguments all{"motion",  "--volume",       "builtin:head:32", "--mesh", "builtin:scalpel:300",
+        Arguments all{"motion",  "--volume",       "builtin:head:30", "--mesh", "builtin:scalpel:300",
                       "--poses", path("path.txt"), "--format",        "csv"};
         all.insert(all.end(), more.begin(), more.end());
         return all;
@@ -42,7 +42,7 @@ TEST_F(MotionTest, HasARowForEachSegment) {
     EXPECT_EQ(found[0], (std::vector<std::string>{"segment", "mesh", "volume", "hit", "free_until", "touch_at", "x",
                                                   "y", "z", "triangle", "label"}));
     EXPECT_EQ(found[1],
-              (std::vector<std::string>{"0", "builtin:scalpel:300", "builtin:head:32", "0", "1", "", "", "", "", ""}));
+              (std::vector<std::string>{"0", "builtin:scalpel:300", "builtin:head:30", "0", "1", "", "", "", "", ""}));
     EXPECT_EQ(found[2][3], "1");
     const double freeUntil = std::stod(found[2][4]);
     const double touchAt = std::stod(found[2][5]);
@@ -110,7 +110,7 @@ TEST_F(MotionTest, WhatIsMissingIsSaidBeforeTheFirstRow) {
 }
 
 TEST_F(MotionTest, WritesWhatElseIsAskedFor) {
-    output({"make", "volume", "builtin:head:16", path("labels.nii.gz")});
+    output({"make", "volume", "builtin:head:18", path("labels.nii.gz")});
     const auto labelled = rows({"--labels", path("labels.nii.gz"), "--timing", "--interpolation", "slerp"});
     ASSERT_EQ(labelled.size(), 5U);
     EXPECT_NE(labelled[2][10], "");
@@ -141,7 +141,7 @@ TEST_F(MotionTest, RefusesWhatItCannotUse) {
     EXPECT_THAT(refused(2, motion({"--resolution-mm", "0"})), HasSubstr("--resolution-mm"));
     EXPECT_THAT(refused(2, motion({"--label-names", "n.txt"})), HasSubstr("--labels is not given"));
     EXPECT_THAT(refused(2, motion({"--output", path("path.txt")})), HasSubstr("--output"));
-    EXPECT_THAT(refused(2, {"motion", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel"}),
+    EXPECT_THAT(refused(2, {"motion", "--volume", "builtin:head:30", "--mesh", "builtin:scalpel"}),
                 HasSubstr("--poses is required"));
     EXPECT_EQ(filesInFolder(), 3U);
 }
@@ -174,7 +174,7 @@ TEST_F(MotionTest, RefusedPosesHaveTheirNumbers) {
     }
     writeText(path("bad.txt"), text);
     for (const Arguments& more : {Arguments{}, Arguments{"--resume", path("run"), "--chunk", "30"}}) {
-        Arguments all{"motion",  "--volume",      "builtin:head:32", "--mesh", "builtin:scalpel:300",
+        Arguments all{"motion",  "--volume",      "builtin:head:30", "--mesh", "builtin:scalpel:300",
                       "--poses", path("bad.txt"), "--format",        "csv"};
         all.insert(all.end(), more.begin(), more.end());
         EXPECT_THAT(refused(2, all), HasSubstr("motion: --poses: poses 349 and 350: the motion"));
@@ -183,7 +183,7 @@ TEST_F(MotionTest, RefusedPosesHaveTheirNumbers) {
 
 TEST_F(MotionTest, APoseMayBeOff) {
     const auto hits = [&](const Arguments& more) {
-        Arguments all{"detect",  "--volume",       "builtin:head:32", "--mesh", "builtin:scalpel:300",
+        Arguments all{"detect",  "--volume",       "builtin:head:30", "--mesh", "builtin:scalpel:300",
                       "--poses", path("path.txt"), "--format",        "csv"};
         all.insert(all.end(), more.begin(), more.end());
         std::string found;
@@ -198,7 +198,7 @@ TEST_F(MotionTest, APoseMayBeOff) {
     EXPECT_EQ(hits({"--pose-tolerance", "200,0"}), "1111");
     EXPECT_EQ(hits({"--pose-tolerance", "0,180"}), "1111"); // the handle is 150 mm long
     const auto line = [&](const Arguments& more) {
-        Arguments all{"detect", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:300"};
+        Arguments all{"detect", "--volume", "builtin:head:30", "--mesh", "builtin:scalpel:300"};
         all.insert(all.end(), more.begin(), more.end());
         return refused(2, all);
     };

@@ -71,7 +71,7 @@ TEST_F(OutputTest, JsonHasStats) {
 }
 
 TEST_F(OutputTest, TextIsAligned) {
-    const auto lines = linesOf(output({"detect", "--volume", "builtin:head:32", "--volume", "builtin:sphere:32",
+    const auto lines = linesOf(output({"detect", "--volume", "builtin:head:30", "--volume", "builtin:sphere:32",
                                        "--mesh", "builtin:scalpel:500", "--poses", poses(12), "--format", "text"}));
     const std::size_t at = lines.at(0).find("method");
     for (const std::string& line : lines) {
@@ -83,10 +83,10 @@ TEST_F(OutputTest, TextIsAligned) {
 TEST_F(OutputTest, NamesWithCommasAreQuoted) {
     const std::string name = path("a,\"b\".stl");
     output({"make", "mesh", "builtin:scalpel:500", name});
-    const std::string text = output({"detect", "--volume", "builtin:head:32", "--mesh", name});
+    const std::string text = output({"detect", "--volume", "builtin:head:30", "--mesh", name});
     EXPECT_THAT(text, HasSubstr(",\"" + path("a,\"\"b\"\".stl") + "\","));
     const Json json =
-        Json::parse(output({"detect", "--volume", "builtin:head:32", "--mesh", name, "--format", "json"}));
+        Json::parse(output({"detect", "--volume", "builtin:head:30", "--mesh", name, "--format", "json"}));
     EXPECT_EQ(json["rows"][0]["mesh"], name);
 }
 
@@ -94,7 +94,7 @@ TEST_F(OutputTest, TextHasNoControlCharacters) {
     const std::string name = path("a\x1b[31m\xff.stl");
     output({"make", "mesh", "builtin:scalpel:500", name});
     const auto as = [&](const char* format) {
-        return output({"detect", "--volume", "builtin:head:32", "--mesh", name, "--count", "cpu", "--format", format});
+        return output({"detect", "--volume", "builtin:head:30", "--mesh", name, "--count", "cpu", "--format", format});
     };
     EXPECT_THAT(as("text"), HasSubstr("a\\x1b[31m\\xff.stl "));
     EXPECT_THAT(as("csv"), HasSubstr(name + ","));
@@ -112,8 +112,8 @@ TEST_F(OutputTest, FolderThatDoesNotExist) {
     const std::string file = path("no/folder/out.csv");
     for (const Arguments& arguments : {detect({"--output", file}), Arguments{"devices", "--output", file},
                                        Arguments{"make", "mesh", "builtin:scalpel:500", path("no/folder/out.stl")},
-                                       Arguments{"make", "volume", "builtin:head:16", path("no/folder/out.nii")},
-                                       Arguments{"make", "poses", "--volume", "builtin:head:16", "--mesh",
+                                       Arguments{"make", "volume", "builtin:head:18", path("no/folder/out.nii")},
+                                       Arguments{"make", "poses", "--volume", "builtin:head:18", "--mesh",
                                                  "builtin:scalpel:500", "--output", file}}) {
         EXPECT_THAT(refused(1, arguments), AllOf(HasSubstr(path("no/folder")), HasSubstr("does not exist")));
     }

@@ -14,7 +14,7 @@ namespace voxtact::test {
 class PlanTest : public CliTest {
   protected:
     [[nodiscard]] static Arguments plan(const Arguments& more) {
-        Arguments all{"plan", "--volume", "builtin:head:32", "--format", "csv"};
+        Arguments all{"plan", "--volume", "builtin:head:30", "--format", "csv"};
         if (std::find(more.begin(), more.end(), "--entries") == more.end()) {
             all.insert(all.end(), {"--entries", "100"});
         }
@@ -41,7 +41,7 @@ class PlanTest : public CliTest {
         return all;
     }
     void SetUp() override {
-        output({"make", "volume", "builtin:head:32", path("labels.nii.gz")});
+        output({"make", "volume", "builtin:head:30", path("labels.nii.gz")});
         writeText(path("labels.nii.txt"), "70 Cortex\n90 Skin\n120 Skull\n");
     }
 };

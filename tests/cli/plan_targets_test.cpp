@@ -113,7 +113,7 @@ TEST_F(PlanTest, RefusesOneFileForTwoTargets) {
 TEST_F(PlanTest, JsonHasWhatIsSaidOfEachTarget) {
     const auto text = [&](const std::string& format, const Arguments& more) {
         Arguments all{
-            "plan",     "--volume", "builtin:head:32", "--labels", path("labels.nii.gz"), "--avoid", "Skull",
+            "plan",     "--volume", "builtin:head:30", "--labels", path("labels.nii.gz"), "--avoid", "Skull",
             "--target", "20,0,30",  "--target",        "Cortex",   "--entries",           "100",     "--format",
             format};
         all.insert(all.end(), more.begin(), more.end());

@@ -70,7 +70,7 @@ TEST_F(PlanTest, WritesASurfaceAndFacts) {
     EXPECT_THAT(html, testing::EndsWith("</body></html>\n"));
     EXPECT_THAT(html, testing::Not(HasSubstr("http")));
     const std::string json =
-        output({"plan", "--volume", "builtin:head:32", "--target", "20,0,30", "--avoid-opacity", "200:0,201:1",
+        output({"plan", "--volume", "builtin:head:30", "--target", "20,0,30", "--avoid-opacity", "200:0,201:1",
                 "--max-clearance", "1", "--entries", "12", "--format", "json", "--timing"});
     for (const char* name :
          {"\"margin\": 0.0", "\"targets\": 1", "\"clearance_hi\":\"inf\"", "\"target\":\"1\"", "\"entries_per_s\""}) {
@@ -160,7 +160,7 @@ TEST_F(PlanTest, SaysOnceThatValuesGoBeyondTheDomain) {
         plan({"--target", "20,0,30", "--avoid-opacity", "100:0,160:1", "--tf-domain", "0:200", "--progress", "never"}));
     EXPECT_EQ(ran.status, 0);
     EXPECT_EQ(linesOf(ran.err).size(), 1U) << ran.err;
-    EXPECT_THAT(ran.err, HasSubstr("builtin:head:32: its values"));
+    EXPECT_THAT(ran.err, HasSubstr("builtin:head:30: its values"));
 }
 
 TEST_F(PlanTest, RefusesWhatItCannotUse) {
@@ -194,7 +194,7 @@ TEST_F(PlanTest, RefusesWhatItCannotUse) {
     EXPECT_THAT(line(labelled({"--avoid", "999"})), HasSubstr("no voxel of the label map has the label '999'"));
     EXPECT_THAT(refused(2, plan({"--labels", path("labels.nii.gz"), "--avoid", "Skin", "--target", "Cortx"})),
                 HasSubstr("did you mean Cortex?"));
-    output({"make", "volume", "builtin:head:16", path("coarse.nii.gz")});
+    output({"make", "volume", "builtin:head:18", path("coarse.nii.gz")});
     EXPECT_THAT(
         refused(1, plan({"--labels", path("coarse.nii.gz"), "--target", "0,0,0", "--avoid", "70"})),
         HasSubstr("plan: --labels: '" + path("coarse.nii.gz") + "': the label map is not on the grid of the volume"));

@@ -98,7 +98,7 @@ TEST_F(RenderSliceTest, SidesAreWhereRadiologistsHaveThem) {
 TEST_F(RenderSliceTest, InterruptedItLeavesNoFile) {
     writeText(path("a.png"), "as it was");
     // As large as a picture may be: it is written for a while.
-    Child child({"render", "--volume", "builtin:head:16", "--slice", "axial:0", "--size", "6000x6000", "--output",
+    Child child({"render", "--volume", "builtin:head:18", "--slice", "axial:0", "--size", "6000x6000", "--output",
                  path("a.png")});
     for (int i = 0; i < 1200 && filesInFolder() < 2; ++i) {
         ::usleep(50000);
@@ -146,14 +146,14 @@ TEST_F(RenderSliceTest, WhatASliceDoesNotAsk) {
     EXPECT_EQ(filesInFolder(), 0U);
     output(render(png, {"--slice", "axial", "--device", "no such device"}), {.note = "--device: a slice is drawn"});
     output(render(png, {"--slice", "axial", "--opacity", "40:0,80:1"}), {.note = "they are not used"});
-    output({"render", "--volume", "builtin:head:16", "--slice", "axial", "--title", "Head", "--size", "64x64",
+    output({"render", "--volume", "builtin:head:18", "--slice", "axial", "--title", "Head", "--size", "64x64",
             "--output", png},
            {.note = "--title: it is written from 320x320 on"});
 }
 
 TEST_F(RenderSliceTest, WhatCannotBe) {
     const std::string png = path("a.png");
-    EXPECT_THAT(refused(2, {"render", "--volume", "builtin:head:16", "--mesh-colour", "ff0000", "--output", png}),
+    EXPECT_THAT(refused(2, {"render", "--volume", "builtin:head:18", "--mesh-colour", "ff0000", "--output", png}),
                 HasSubstr("--mesh is missing"));
     EXPECT_THAT(refused(2, render(png, {"--slice", "axial:500"})),
                 AllOf(HasSubstr("--slice axial:500 is outside of the volume"), HasSubstr("to"), HasSubstr("mm")));
@@ -164,7 +164,7 @@ TEST_F(RenderSliceTest, WhatCannotBe) {
     EXPECT_THAT(refused(2, render(png, {"--slice", "axial", "--clip", "left"})), HasSubstr("excludes"));
     EXPECT_THAT(refused(2, render(png, {"--window", "0:1"})), HasSubstr("--window requires --slice"));
     EXPECT_THAT(refused(2, render(png, {"--slice", "axial", "--window", "3:1"})), HasSubstr("LO below HI"));
-    EXPECT_THAT(refused(2, {"render", "--volume", "builtin:head:16", "--slice", "axial", "--size", "100000x10",
+    EXPECT_THAT(refused(2, {"render", "--volume", "builtin:head:18", "--slice", "axial", "--size", "100000x10",
                             "--output", png}),
                 HasSubstr("beyond"));
     EXPECT_EQ(filesInFolder(), 0U);

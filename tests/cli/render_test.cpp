@@ -158,7 +158,7 @@ TEST_F(RenderPictureTest, PresetsAreDifferentPictures) {
         pictures.push_back(readPng(path("a.png")).rgba);
     };
     for (const char* preset : {"mr", "mr-skin", "mr-brain"}) {
-        add("builtin:head:32", preset);
+        add("builtin:head:30", preset);
     }
     for (const char* preset : {"ct", "ct-bone", "ct-soft", "ct-vessels", "ct-lung"}) {
         add("builtin:ct:32", preset);
@@ -185,7 +185,7 @@ TEST_F(RenderPictureTest, LightingIsChosen) {
 
 TEST_F(RenderPictureTest, AnnotatedFrom320) {
     const auto written = [&](const char* size, const Arguments& more) {
-        Arguments all{"render", "--volume", "builtin:head:32", "--opacity",  "0:0",
+        Arguments all{"render", "--volume", "builtin:head:30", "--opacity",  "0:0",
                       "--size", size,       "--output",        path("a.png")};
         all.insert(all.end(), more.begin(), more.end());
         EXPECT_EQ(run(all).status, 0);
@@ -219,7 +219,7 @@ TEST_F(RenderPictureTest, SizeBeyondTheDevice) {
 
 TEST_F(RenderCliTest, ArgumentsThatCannotBe) {
     const std::string png = path("a.png");
-    EXPECT_THAT(refused(2, {"render", "--volume", "builtin:head:16"}), HasSubstr("--output"));
+    EXPECT_THAT(refused(2, {"render", "--volume", "builtin:head:18"}), HasSubstr("--output"));
     EXPECT_THAT(refused(2, render(path("a.jpg"))), HasSubstr("a.jpg"));
     EXPECT_THAT(refused(2, render(png, {"--volume", "builtin:ct:16"})), HasSubstr("one --volume"));
     EXPECT_THAT(refused(2, render(png, {"--view", "inside"})), HasSubstr("'inside' is not known"));

@@ -17,7 +17,7 @@ using testing::StartsWith;
 class StreamTest : public CliTest {
   protected:
     static Arguments detect(const Arguments& more = {}) {
-        Arguments all{"detect", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:500", "--count", "cpu"};
+        Arguments all{"detect", "--volume", "builtin:head:30", "--mesh", "builtin:scalpel:500", "--count", "cpu"};
         all.insert(all.end(), more.begin(), more.end());
         return all;
     }
@@ -25,7 +25,7 @@ class StreamTest : public CliTest {
     static std::string poses(int count) {
         std::string text;
         for (const std::string& line :
-             linesOf(output({"make", "poses", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:500",
+             linesOf(output({"make", "poses", "--volume", "builtin:head:30", "--mesh", "builtin:scalpel:500",
                              "--number", std::to_string(count), "--seed", "7"}))) {
             text += line.starts_with("#") ? "" : line + "\n";
         }
@@ -106,7 +106,7 @@ TEST_F(StreamTest, MotionsComeAsTheyAreKnown) {
         text += "1 0 0 0  0 1 0 0  0 0 1 " + std::to_string(i % 2 == 0 ? 160 : 80) + "  0 0 0 1\n";
     }
     writeText(path("path.txt"), text);
-    const Arguments motion{"motion",  "--volume",       "builtin:head:32", "--mesh", "builtin:scalpel:500",
+    const Arguments motion{"motion",  "--volume",       "builtin:head:30", "--mesh", "builtin:scalpel:500",
                            "--poses", path("path.txt"), "--format",        "csv"};
     Child child(motion);
     const std::vector<std::string> first = child.lines(200);
@@ -184,7 +184,7 @@ TEST_F(StreamTest, StandardInputForSeveralMeshes) {
 TEST_F(StreamTest, ADashIsStandardOutput) {
     EXPECT_EQ(output(detect({"--output", "-"})), output(detect()));
     writeText(path("poses.txt"), "1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1\n1 0 0 9  0 1 0 0  0 0 1 0  0 0 0 1\n");
-    const Arguments motion{"motion",  "--volume",       "builtin:head:32", "--mesh", "builtin:scalpel:500",
+    const Arguments motion{"motion",  "--volume",       "builtin:head:30", "--mesh", "builtin:scalpel:500",
                            "--poses", path("poses.txt")};
     Arguments dashed = motion;
     dashed.insert(dashed.end(), {"--output", "-"});

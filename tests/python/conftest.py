@@ -79,7 +79,7 @@ def answers(volume):
 
 @pytest.fixture(scope="session")
 def head():
-    return vx.read_volume("builtin:head:32")
+    return vx.read_volume("builtin:head:30")
 
 
 @pytest.fixture(scope="session")

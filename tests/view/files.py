@@ -124,7 +124,7 @@ def notes(program, folder):
     metres = pathlib.Path(folder, "tool.obj")
     metres.write_text("v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0.05 0 0\nf 1 2 3\nf 1 2 4\n")
     pathlib.Path(folder, "curve.json").write_text('{"points": [[10, 0], [100, 1]]}')
-    scene = ["--volume", "builtin:head:32", "--mesh", "builtin:scalpel:300", "--preset", "ct-lung", "--device", "cpu"]
+    scene = ["--volume", "builtin:head:30", "--mesh", "builtin:scalpel:300", "--preset", "ct-lung", "--device", "cpu"]
     preset, empty, size = "--preset ct-lung is in Hounsfield units", "none of its values, 0 to 255", "--mesh-scale 1000"
 
     def said(*parts):
@@ -296,7 +296,7 @@ def refusals(program, folder):
     without = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
     refused(program, 1, "there is no display to open a window on", [*SCENE], without)
     session = pathlib.Path(folder) / "session.json"
-    session.write_text('{"voxtact_session": 1, "volume": "builtin:head:16", "mesh": "builtin:scalpel:300"}')
+    session.write_text('{"voxtact_session": 1, "volume": "builtin:head:18", "mesh": "builtin:scalpel:300"}')
     refused(program, 1, "transfer_function: ", ["--session", str(session)], without)
     refused(program, 2, "--session", ["--session", str(session), "--threshold", "0.2"], without)
     refused(program, 2, "--volume: the window shows one", ["--volume", "builtin:head", "--volume", "builtin:ct"],

@@ -164,7 +164,7 @@ def counts(program, folder, server):
 
 def labels(program, folder):
     # Any image of whole numbers is a label map; its values are the labels.
-    subprocess.run([program, "make", "volume", "builtin:head:32", f"{folder}/atlas.nii"], check=True,
+    subprocess.run([program, "make", "volume", "builtin:head:30", f"{folder}/atlas.nii"], check=True,
                    capture_output=True, timeout=PATIENCE)
     with Server() as server:
         for device in (["--device", "cpu"], ["--count", "compute"]):

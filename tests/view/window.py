@@ -205,7 +205,7 @@ def poses(folder, *heights):
     return str(path)
 
 
-SCENE = ["--volume", "builtin:head:32", "--mesh", "builtin:scalpel:300", "--preset", "mr"]
+SCENE = ["--volume", "builtin:head:30", "--mesh", "builtin:scalpel:300", "--preset", "mr"]
 HEIGHT = 11  # of a pose's numbers, row by row
 
 
