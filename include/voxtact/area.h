@@ -54,13 +54,13 @@ struct LabelArea {
     AreaEnd end{};          ///< why they are no nearer to each other
 };
 
-/// The contact area of one triangle of a pair.
+/// The contact area of one triangle of a pair. Triangles that are not listed have none.
 struct TriangleArea {
     std::uint32_t pair = 0;     ///< number of the pair in its batch
     std::uint32_t item = 0;     ///< number of the BatchItem that the pair came from
     std::uint32_t pose = 0;     ///< number of the pose within that item
     std::uint32_t triangle = 0; ///< number in the mesh
-    double whole = 0;           ///< mm^2: the area of all of it, at its pose, rounded; infinite where `hi` is
+    double whole = 0;           ///< mm^2: the area of all of it, at its pose, no bound; infinite where `hi` is
     AreaBounds bounds;          ///< mm^2
 };
 

@@ -193,8 +193,9 @@ class AreaMeter {
 
     /// The contact area of every pair. Labels and view are not looked at. Refuses what Detector::detect() refuses.
     [[nodiscard]] VOXTACT_API Result<AreaAnswer> measure(const Batch& batch);
-    /// The same, and what each triangle has of it. It is the areas together that are brought within the tolerance: the
-    /// bounds of no triangle are farther apart, where the pair's are closed.
+    /// The same, and what each triangle has of it. The tolerance is of the pair's area; no triangle's bounds are
+    /// farther apart than the pair's. All of a batch is in memory until it is done, some 100 bytes for each triangle
+    /// that touches: ask for many poses in parts.
     [[nodiscard]] VOXTACT_API Result<TriangleAreaAnswer> measureTriangles(const Batch& batch);
     /// The contact area of every pair in each label's part of what is opaque; of labels that a map does not have it is
     /// 0. Every item needs labels, on the grid of its volume. Refuses what measure() refuses, other grids

@@ -44,11 +44,11 @@ typedef struct vxt_label_area {
     uint32_t reserved; ///< 0
 } vxt_label_area;
 
-/// The contact area of one triangle of a pair: voxtact::TriangleArea.
+/// The contact area of one triangle of a pair: voxtact::TriangleArea. Triangles that are not listed have none.
 typedef struct vxt_triangle_area {
     double lo;         ///< mm^2
     double hi;         ///< mm^2
-    double whole;      ///< mm^2: the area of all of it, at its pose
+    double whole;      ///< mm^2: the area of all of it, at its pose, no bound; infinite where `hi` is
     uint32_t pair;     ///< number in the batch
     uint32_t item;     ///< number of the item
     uint32_t pose;     ///< number of the pose in the item

@@ -4,11 +4,14 @@
 #include "child.h"
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <fcntl.h>
+#include <memory>
 #include <random>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <thread>
 #include <unistd.h>
 
 namespace voxtact::test {
@@ -387,10 +390,6 @@ TEST_F(ChunksTest, ADamagedManifestIsWrittenAnew) {
         writeText(file, damage);
         EXPECT_THAT(refused(1, {"merge", path("run")}), HasSubstr("is damaged; the command that made it"));
         EXPECT_THAT(refused(1, chunked({"--threshold", "0.3"})), HasSubstr("no chunk there is of this command"));
-        {
-            const HeldLock other(path("run") + "/run.lock", LOCK_SH);
-            EXPECT_THAT(refused(1, chunked()), HasSubstr("is damaged, and other processes are at work"));
-        }
         EXPECT_EQ(readText(file), damage) << "nothing is written but by the command that made it";
         const Ran ran = run(chunked());
         EXPECT_EQ(ran.status, 0);
@@ -399,11 +398,46 @@ TEST_F(ChunksTest, ADamagedManifestIsWrittenAnew) {
         EXPECT_EQ(readText(file), manifest);
         EXPECT_EQ(output({"merge", path("run")}), whole);
     }
+    // One that says that it is of another version is this one's all the same where its chunks are.
     std::string other = manifest;
-    writeText(file, other.replace(other.find(": 2"), 3, ": 1"));
-    for (const Arguments& command : {chunked(), Arguments{"merge", path("run")}}) {
-        EXPECT_THAT(refused(1, command), HasSubstr("is of another version of voxtact; begin anew"));
+    other.replace(other.find(": 2"), 3, ": 1");
+    writeText(file, other);
+    EXPECT_THAT(refused(1, {"merge", path("run")}), HasSubstr("is of another version of voxtact; begin anew"));
+    EXPECT_EQ(run(chunked()).out, whole);
+    EXPECT_EQ(readText(file), manifest);
+    for (const fs::path& chunk : chunkFiles()) {
+        fs::remove(chunk);
     }
+    writeText(file, other);
+    EXPECT_THAT(refused(1, chunked()), HasSubstr("is of another version of voxtact; begin anew"));
+}
+
+TEST_F(ChunksTest, ADamagedManifestWaitsForOthers) {
+    const std::string whole = output(chunked());
+    const std::string file = path("run") + "/voxtact-run.json";
+    const std::string manifest = readText(file);
+    writeText(file, "");
+    {
+        const HeldLock other(path("run") + "/run.lock", LOCK_SH);
+        EXPECT_THAT(refused(1, chunked()), HasSubstr("is damaged, and other processes are at work"));
+    }
+    auto held = std::make_unique<HeldLock>(path("run") + "/run.lock", LOCK_EX);
+    std::thread goes([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        held.reset();
+    });
+    EXPECT_EQ(run(chunked()).out, whole);
+    goes.join();
+    // Whoever had the lock has written it meanwhile.
+    writeText(file, "");
+    held = std::make_unique<HeldLock>(path("run") + "/run.lock", LOCK_SH);
+    std::thread writes([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        writeText(file, manifest);
+    });
+    EXPECT_EQ(run(chunked({"--shard", "1/2"})).status, 0);
+    writes.join();
+    EXPECT_EQ(readText(file), manifest);
 }
 
 TEST_F(ChunksTest, TwoProcessesDoNotDoTheSame) {

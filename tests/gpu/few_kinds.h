@@ -40,15 +40,15 @@ inline std::vector<ScalarType> fewTypes(std::mt19937_64& random) {
 
 /// What the images of a run are, where the tests are not in their long form.
 enum class ImageKinds {
-    Few,  ///< of the usual kind; of bytes, and of the first other type that comes
+    Few,  ///< of bytes of the usual kind, and of the first other type that comes, of the kind that comes first
     Most, ///< of all types of voxels; of the first type that comes, of the kind that comes first
 };
 
 /// The images of a run. llvmpipe compiles a shader anew for each format and for which of the sides of the volume and of
 /// the table are powers of two: 64 kinds, of which 300 cases have nearly all, and seconds for each. So a run has few of
 /// them, with as many cases of each. Of the usual kind no side of the volume is a power of two and the table's is, as
-/// in most tests, so that much is compiled already. In the long form each type of voxels has the kind that comes first.
-/// Which type and kind come first is up to the seed.
+/// in most tests, so that much is compiled already; what has a side of 1, 2, 4 or 8 voxels is of another one. In the
+/// long form each type of voxels has the kind that comes first. Which type and kind come first is up to the seed.
 class FewKindsOfImage {
   public:
     /// As many as are wanted.
@@ -65,7 +65,8 @@ class FewKindsOfImage {
         if (!types_.contains(volume.type) && !isWanted(volume.type)) {
             return false;
         }
-        const bool any = longTests() || (kinds_ == ImageKinds::Most && types_.empty());
+        const bool any =
+            longTests() || (kinds_ == ImageKinds::Most ? types_.empty() : volume.type != ScalarType::UInt8);
         Type& type = types_.try_emplace(volume.type, Type{any ? kind : kUsual, 0}).first->second;
         if (type.kind != kind || type.cases == casesOfEach_) {
             return false;

@@ -190,6 +190,25 @@ class RunFolder::Lock {
     bool isReal_ = false;
 };
 
+namespace {
+
+/// For a lock that another process has for as long as it takes to remove or write files.
+class Waiting {
+  public:
+    /// Waits, at first hardly; false: long enough.
+    [[nodiscard]] bool goesOn() {
+        constexpr int kTries = 40;
+        constexpr auto kWait = std::chrono::milliseconds(50);
+        std::this_thread::sleep_for(tries_ == 0 ? kWait / 50 : kWait);
+        return tries_++ < kTries;
+    }
+
+  private:
+    int tries_ = 0;
+};
+
+} // namespace
+
 RunFolder::RunFolder(fs::path path, RunManifest manifest)
     : path_(std::move(path)), manifest_(std::move(manifest)), id_(manifest_.id()) {}
 RunFolder::RunFolder(RunFolder&&) noexcept = default;
@@ -203,12 +222,8 @@ Result<void> RunFolder::lock(const std::optional<Shard>& shard) {
         removeTemporaryFiles(path_);
     }
     if (shard && (!*whole || !(*whole)->change(false))) {
-        // Another one may be alone for as long as it takes to remove files.
-        constexpr int kTries = 40;
-        constexpr auto kWait = std::chrono::milliseconds(50);
         whole->reset();
-        for (int i = 0; i < kTries && !*whole; ++i) {
-            std::this_thread::sleep_for(i == 0 ? kWait / 50 : kWait);
+        for (Waiting waiting; !*whole && waiting.goesOn();) {
             whole = Lock::take(path_, kLockName, false);
             VOXTACT_TRY(whole);
         }
@@ -245,45 +260,61 @@ Result<RunFolder> RunFolder::open(const fs::path& path, const RunManifest& manif
                                   const std::optional<Shard>& shard) {
     VOXTACT_TRY(prepare(path));
     VOXTACT_TRY(place(path, manifest));
-    const Result<ReadManifest> there = readManifest(path);
-    VOXTACT_TRY(there);
-    const bool damaged = there->state == ManifestState::Damaged;
-    if (damaged) {
-        VOXTACT_TRY(RunFolder(path, manifest.asWritten()).writeAnew());
-    }
+    const Result<bool> writtenAnew = RunFolder(path, manifest.asWritten()).writeAnewIfDamaged();
+    VOXTACT_TRY(writtenAnew);
     Result<RunFolder> folder = join(path, manifest);
     VOXTACT_TRY(folder);
-    folder->isWrittenAnew_ = damaged;
+    folder->isWrittenAnew_ = *writtenAnew;
     VOXTACT_TRY(folder->lock(shard));
     return folder;
 }
 
-/// What there is tells whether the manifest that is lost was this one: a chunk's name has a hash of its run's facts.
-Result<void> RunFolder::writeAnew() const {
-    const Result<std::optional<Lock>> alone = Lock::take(path_, kLockName, true);
-    VOXTACT_TRY(alone);
-    if (!*alone) {
-        return cannotUse(path_, std::string("'") + kManifestName +
-                                    "' is damaged, and other processes are at work; wait for them, or stop them");
+Result<bool> RunFolder::writeAnewIfDamaged() const {
+    Result<ReadManifest> there = readManifest(path_);
+    VOXTACT_TRY(there);
+    for (Waiting waiting; there->state != ManifestState::Whole && waiting.goesOn();) {
+        const Result<std::optional<Lock>> alone = Lock::take(path_, kLockName, true);
+        VOXTACT_TRY(alone);
+        if (*alone) {
+            return writeAnew();
+        }
+        there = readManifest(path_);
+        VOXTACT_TRY(there);
     }
+    if (there->state == ManifestState::Whole) {
+        return false;
+    }
+    return cannotUse(path_, std::string("'") + kManifestName +
+                                "' is damaged, and other processes are at work; wait for them, or stop them");
+}
+
+/// Expects that no other process is at work. What there is tells whether the manifest that is lost was this one: a
+/// chunk's name has a hash of its run's facts, the version among them.
+Result<bool> RunFolder::writeAnew() const {
+    const Result<ReadManifest> there = readManifest(path_);
+    VOXTACT_TRY(there);
     bool others = false;
     bool ours = false;
     std::error_code problem;
     for (fs::directory_iterator entry(path_, problem), end; !problem && entry != end; entry.increment(problem)) {
         const std::string name = entry->path().filename().string();
-        if (name == kManifestName || isPreparation(name)) {
-            continue;
+        if (name != kManifestName && !isPreparation(name)) {
+            (isChunk(name) ? ours : others) = true;
         }
-        const bool its = isChunk(name);
-        ours = ours || its;
-        others = others || !its;
+    }
+    if (problem) {
+        return cannotUse(path_, problem.message());
+    }
+    if (there->state == ManifestState::Whole || (there->state == ManifestState::OfAnotherVersion && !ours)) {
+        return false;
     }
     if (others && !ours) {
         return cannotUse(path_, std::string("'") + kManifestName +
                                     "' is damaged, and no chunk there is of this command; give the one that made it, "
-                                    "or a new folder");
+                                    "with the --count that answered, or a new folder");
     }
-    return writeManifest(path_ / kManifestName, manifest_);
+    VOXTACT_TRY(writeManifest(path_ / kManifestName, manifest_));
+    return true;
 }
 
 Result<RunFolder> RunFolder::read(const fs::path& path) {

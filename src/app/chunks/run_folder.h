@@ -20,8 +20,8 @@ enum class ChunkState { Missing, Whole, Damaged };
 class RunFolder {
   public:
     /// Makes the folder, or goes on with it: refuses one that has something else, another run, or a shard that another
-    /// process is doing. It is locked while this lives. A manifest that is damaged is written anew, unless all chunks
-    /// there are another run's.
+    /// process is doing. It is locked while this lives. A manifest that is damaged is written anew where some chunk is
+    /// this run's, or there is nothing yet.
     [[nodiscard]] static Result<RunFolder> open(const std::filesystem::path& path, const RunManifest& manifest,
                                                 const std::optional<Shard>& shard);
     /// The same without making or locking it: for a process whose leader has done that.
@@ -53,7 +53,9 @@ class RunFolder {
 
     RunFolder(std::filesystem::path path, RunManifest manifest);
     [[nodiscard]] Result<void> lock(const std::optional<Shard>& shard);
-    [[nodiscard]] Result<void> writeAnew() const;
+    /// Whether it was.
+    [[nodiscard]] Result<bool> writeAnewIfDamaged() const;
+    [[nodiscard]] Result<bool> writeAnew() const;
     /// Whether a file is named as one of this run's chunks.
     [[nodiscard]] bool isChunk(const std::string& name) const;
 

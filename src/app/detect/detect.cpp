@@ -129,8 +129,10 @@ Result<void> checkDetectPaths(const DetectOptions& options) {
     std::vector<NamedPath> outputs{{"--output", options.output.path.empty() ? "-" : options.output.path}};
     for (const auto& [option, path] : sideFiles(options)) {
         outputs.push_back({option, path});
+        if (option == "--triangles") { // in the order of --help
+            outputs.push_back({"--contacts", options.extra.contacts});
+        }
     }
-    outputs.insert(outputs.begin() + 2, {"--contacts", options.extra.contacts}); // as --help has them
     return checkOutputs(outputs, inputs);
 }
 

@@ -39,7 +39,7 @@ struct DistanceOptions {
     bool area = false;
     std::optional<double> areaTolerance; ///< mm^2
     std::filesystem::path labelAreas;    ///< a file to write
-    std::filesystem::path triangleAreas; ///< another
+    std::filesystem::path triangleAreas; ///< a file to write
     std::vector<LabelWord> to;           ///< of `labels` and `labelAreas`; empty: all but 0
     bool toAnyOpacity = false;           ///< all of a label, not what is opaque of it
 

@@ -15,18 +15,27 @@ void withoutInputs(std::ostream& out, const DetectOptions& options, const Detect
 using Path = const std::filesystem::path&;
 
 constexpr std::array<SideFileFacts, kSideFiles> kTable{{
-    {"--triangles", [](const DetectOptions& given) -> Path { return given.extra.triangles; },
+    {SideFile::Triangles, "--triangles", [](const DetectOptions& given) -> Path { return given.extra.triangles; },
      withoutInputs<writeTriangleHeader>, "", false},
-    {"--closest", [](const DetectOptions& given) -> Path { return given.distance.closest; }, writeClosestHeader, ".csv",
-     true},
-    {"--label-clearance", [](const DetectOptions& given) -> Path { return given.distance.labels; },
-     withoutInputs<writeLabelClearanceHeader>, "", false},
-    {"--label-area", [](const DetectOptions& given) -> Path { return given.distance.labelAreas; },
+    {SideFile::Closest, "--closest", [](const DetectOptions& given) -> Path { return given.distance.closest; },
+     writeClosestHeader, ".csv", true},
+    {SideFile::LabelClearance, "--label-clearance",
+     [](const DetectOptions& given) -> Path { return given.distance.labels; }, withoutInputs<writeLabelClearanceHeader>,
+     "", false},
+    {SideFile::LabelArea, "--label-area", [](const DetectOptions& given) -> Path { return given.distance.labelAreas; },
      withoutInputs<writeLabelAreaHeader>, "", false},
-    {"--triangle-area", [](const DetectOptions& given) -> Path { return given.distance.triangleAreas; },
+    {SideFile::TriangleArea, "--triangle-area",
+     [](const DetectOptions& given) -> Path { return given.distance.triangleAreas; },
      withoutInputs<writeTriangleAreaHeader>, "", false},
 }};
-static_assert(static_cast<std::size_t>(SideFile::TriangleArea) + 1 == kSideFiles);
+static_assert([] {
+    for (std::size_t i = 0; i < kSideFiles; ++i) {
+        if (kTable[i].file != static_cast<SideFile>(i)) {
+            return false;
+        }
+    }
+    return true;
+}());
 
 } // namespace
 

@@ -16,6 +16,7 @@ enum class SideFile : std::size_t { Triangles, Closest, LabelClearance, LabelAre
 inline constexpr std::size_t kSideFiles = 5;
 
 struct SideFileFacts {
+    SideFile file;
     const char* option; ///< that asks for it
     /// Empty: it is not asked for.
     const std::filesystem::path& (*path)(const DetectOptions& options);

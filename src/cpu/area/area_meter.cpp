@@ -176,6 +176,11 @@ Result<TriangleAreaAnswer> AreaMeter::measureTriangles(const Batch& batch) {
         std::vector<TrianglesOfPair> pairs;
         VOXTACT_TRY(measureAll(*impl_, batch, pairs, [](TrianglesOfPair& pair) { return &pair.triangles; }));
         TriangleAreaAnswer answer;
+        std::size_t count = 0;
+        for (const TrianglesOfPair& pair : pairs) {
+            count += pair.triangles.size();
+        }
+        answer.triangles.reserve(count);
         for (TrianglesOfPair& pair : pairs) {
             answer.pairs.push_back(pair);
             for (const TriangleFound& found : pair.triangles) {

@@ -26,27 +26,31 @@ class TriangleSums {
   public:
     explicit TriangleSums(bool areAsked) : areAsked_(areAsked) {}
 
-    /// The next is in frame `frame`, unless a triangle is still to come there.
+    /// A triangle begins. The number of its frame goes to the next one if no part of it may be divided.
     void begin(std::uint32_t frame, std::uint32_t triangle, double whole) {
         if (areAsked_) {
-            sums_.push_back({triangle, whole, {}});
+            sums_.push_back({triangle, whole, {}, 0});
             ofFrame_.resize(std::size_t{frame} + 1);
             ofFrame_[frame] = sums_.size() - 1;
         }
     }
     void add(std::uint32_t frame, const PartArea& area) noexcept {
-        if (areAsked_) {
-            sums_[ofFrame_[frame]].sum.add(area);
+        if (areAsked_ && area.hi > 0) {
+            Sum& sum = sums_[ofFrame_[frame]];
+            sum.sum.add(area);
+            ++sum.parts;
         }
     }
     void takeBack(std::uint32_t frame, const PartArea& area) noexcept {
-        if (areAsked_) {
-            sums_[ofFrame_[frame]].sum.takeBack(area);
+        if (areAsked_ && area.hi > 0) {
+            Sum& sum = sums_[ofFrame_[frame]];
+            sum.sum.takeBack(area);
+            --sum.parts;
         }
     }
     /// What was begun last will not be divided.
     void end() {
-        if (areAsked_ && sums_.back().sum.bounds().hi == 0) {
+        if (areAsked_ && sums_.back().parts == 0) {
             sums_.pop_back();
         }
     }
@@ -54,8 +58,8 @@ class TriangleSums {
     [[nodiscard]] std::vector<TriangleFound> found() const {
         std::vector<TriangleFound> found;
         for (const Sum& one : sums_) {
-            if (const AreaBounds bounds = one.sum.bounds(); bounds.hi > 0) {
-                found.push_back({one.triangle, one.whole, bounds});
+            if (one.parts > 0) {
+                found.push_back({one.triangle, one.whole, one.sum.bounds()});
             }
         }
         std::ranges::sort(found, {}, &TriangleFound::triangle);
@@ -67,6 +71,7 @@ class TriangleSums {
         std::uint32_t triangle = 0;
         double whole = 0;
         AreaSum sum;
+        std::size_t parts = 0; ///< that may have an area: where there are none, what the sum rounds off is none either
     };
 
     bool areAsked_;
