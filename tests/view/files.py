@@ -96,13 +96,13 @@ def coarser(program, folder):
     with Server() as server, Window(program, server, folder, [*SCENE, "--device", "cpu", "--volume-side", "20",
                                                              "--poses", poses(folder, 60)]) as window:
         state = window.until("the question", lambda s: s["question"])
-        assert "32 x 32 x 32 voxels" in state["question"]["text"], state
+        assert "30 x 30 x 30 voxels" in state["question"]["text"], state
         assert "coarser by 2" in state["question"]["text"], state
         window.press("Return")
         state = window.until("the coarser copy", lambda s: s["settled"])
         assert state["coarser"] == 2 and state["hit"] == 1 and state["count"] > 0, state
         assert "coarser by 2" in state["command"].splitlines()[0], state
-        # The same answer as of a file that holds the copy: 16 voxels per side of twice the spacing.
+        # The same answer as of a file that holds the copy: 15 voxels per side of twice the spacing.
         large = make(program, folder, "volume", "builtin:head:96", "large.nii")
         window.open(large)
         state = window.until("the next question", lambda s: s["question"])
