@@ -193,6 +193,18 @@ TEST(Area, OfAPlateInAFaceOfTheImageIsLeftOpen) {
     }
 }
 
+/// Of its cells some are opaque in part.
+TEST(Area, OfAPlateInAFaceOfTheImageThatIsPartlyOpaqueIsLeftOpen) {
+    // Opaque from x = 12.5 on, in the middle of a cell.
+    const std::vector<ControlPoint> points{{90, 0}, {110, 1}};
+    for (const double z : {-0.5, 31.5}) {
+        const PairArea found = area({makeFlat(2, 22, 3, 13, z), valueRamp(), points, kEntries}, {.tolerance = 1e-3});
+        EXPECT_EQ(found.bounds.lo, 0);
+        EXPECT_NEAR(found.bounds.hi, 9.5 * 10, 1e-3);
+        EXPECT_EQ(found.end, AreaEnd::Rounding);
+    }
+}
+
 /// Plates some steps of a float within a face of the image, or beyond it, wherever the world is.
 TEST(Area, OfPlatesHardlyWithinTheImage) {
     std::mt19937_64 random(testSeed());
