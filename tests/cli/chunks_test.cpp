@@ -2,16 +2,14 @@
 // A run in chunks: --resume, --shard, voxtact merge. What comes out is what comes out without, whatever happens on the
 // way. No device is needed.
 #include "child.h"
+#include "chunks_fixture.h"
 
 #include <algorithm>
-#include <chrono>
 #include <csignal>
 #include <fcntl.h>
-#include <memory>
 #include <random>
 #include <sys/file.h>
 #include <sys/stat.h>
-#include <thread>
 #include <unistd.h>
 
 namespace voxtact::test {
@@ -21,65 +19,6 @@ namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
-
-/// A file that holds an flock() as another process would.
-class HeldLock {
-  public:
-    HeldLock(const std::string& path, int how) : file_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
-        EXPECT_EQ(::flock(file_, how | LOCK_NB), 0);
-    }
-    HeldLock(const HeldLock&) = delete;
-    HeldLock& operator=(const HeldLock&) = delete;
-    ~HeldLock() { ::close(file_); }
-
-  private:
-    int file_;
-};
-
-class ChunksTest : public CliTest {
-  protected:
-    /// 40 poses, some of which touch.
-    void SetUp() override {
-        output({"make", "poses", "--volume", "builtin:head:24", "--mesh", "builtin:scalpel:200", "--number", "40",
-                "--seed", "7", "--output", path("poses.txt")});
-    }
-    [[nodiscard]] Arguments detect(const Arguments& more = {}) const {
-        return with({"detect", "--volume", "builtin:head:24", "--mesh", "builtin:scalpel:200", "--mesh",
-                     "builtin:ellipsoid:100", "--poses", path("poses.txt"), "--count", "cpu", "--threads", "1"},
-                    more);
-    }
-    [[nodiscard]] Arguments chunked(const Arguments& more = {}) const {
-        return with(detect({"--resume", path("run"), "--chunk", "7"}), more);
-    }
-    static Arguments with(Arguments all, const Arguments& more) {
-        all.insert(all.end(), more.begin(), more.end());
-        return all;
-    }
-    /// Files of chunks that are there under their names.
-    [[nodiscard]] std::vector<fs::path> chunkFiles(const std::string& ending = ".output") const {
-        std::vector<fs::path> files;
-        std::error_code problem;
-        for (fs::directory_iterator entry(path("run"), problem), end; !problem && entry != end;
-             entry.increment(problem)) {
-            if (entry->path().extension() == ending && !entry->path().filename().string().starts_with(".")) {
-                files.push_back(entry->path());
-            }
-        }
-        std::sort(files.begin(), files.end());
-        return files;
-    }
-    void removeRun() const { fs::remove_all(path("run")); }
-    /// The merged rows of the run by so many shards, the last of which comes first.
-    [[nodiscard]] std::string byShards(const Arguments& command, int shards, const Arguments& merge = {}) const {
-        removeRun();
-        for (int shard = shards; shard >= 1; --shard) {
-            EXPECT_EQ(output(with(command, {"--resume", path("run"), "--chunk", "7", "--shard",
-                                            std::to_string(shard) + "/" + std::to_string(shards)})),
-                      "");
-        }
-        return output(with({"merge", path("run")}, merge));
-    }
-};
 
 TEST_F(ChunksTest, TheFileIsTheSameHoweverItIsDone) {
     writeText(path("jobs.csv"), "builtin:scalpel:200,builtin:head:24," + path("poses.txt") +
@@ -278,47 +217,6 @@ TEST_F(ChunksTest, InterruptedItSaysWhatIsThere) {
     }
 }
 
-TEST_F(ChunksTest, DamagedChunksAreDoneAgain) {
-    const std::string plain = output(detect());
-    EXPECT_EQ(output(chunked()), plain);
-    const std::vector<fs::path> files = chunkFiles();
-    ASSERT_EQ(files.size(), 12U);
-    const std::string whole = readText(files[5]);
-    const std::vector<std::string> damages{
-        "", whole.substr(0, whole.size() - 1), whole.substr(0, whole.size() / 2), whole + "x", readText(files[4]), [&] {
-            std::string flipped = whole;
-            flipped[whole.size() / 2] ^= 1;
-            return flipped;
-        }()};
-    for (const std::string& damage : damages) {
-        writeText(files[5], damage);
-        writeText(path("rows.csv"), "as it was");
-        EXPECT_THAT(refused(1, {"merge", path("run"), "--output", path("rows.csv")}),
-                    AllOf(HasSubstr("1 of 12 chunks are damaged"), HasSubstr("number 5")));
-        EXPECT_EQ(readText(path("rows.csv")), "as it was");
-        const Ran ran = run(chunked());
-        EXPECT_EQ(ran.status, 0);
-        EXPECT_EQ(ran.out, plain);
-        EXPECT_THAT(ran.err, AllOf(HasSubstr("1 chunk in"), HasSubstr("was damaged and done again"),
-                                   HasSubstr("11 chunks of 12")));
-        EXPECT_EQ(readText(files[5]), whole);
-    }
-    // Of another run, whole in itself.
-    removeRun();
-    output(chunked({"--threshold", "0.3"}));
-    const std::string other = readText(chunkFiles()[5]);
-    removeRun();
-    output(chunked());
-    writeText(files[5], other);
-    EXPECT_THAT(refused(1, {"merge", path("run")}), HasSubstr("1 of 12 chunks are damaged"));
-    fs::remove(files[3]);
-    fs::remove(files[8]);
-    EXPECT_THAT(refused(1, {"merge", path("run")}),
-                HasSubstr("1 of 12 chunks are damaged or cannot be read, the first is number 5, and 2 of 12 chunks are "
-                          "missing, the first is "
-                          "number 3; run the same commands"));
-}
-
 TEST_F(ChunksTest, MergeSaysWhatIsMissing) {
     for (const char* shard : {"1/3", "3/3"}) {
         output(chunked({"--shard", shard}));
@@ -378,66 +276,6 @@ TEST_F(ChunksTest, WhatIsNoFolderOfARunIsRefused) {
     EXPECT_EQ(output(chunked()), output(detect())) << "an empty folder is a new one";
     EXPECT_THAT(refused(1, with(detect(), {"--resume", path("no/such")})),
                 HasSubstr("the folder '" + path("no") + "' does not exist: make it first"));
-}
-
-TEST_F(ChunksTest, ADamagedManifestIsWrittenAnew) {
-    const std::string whole = output(chunked());
-    const std::string file = path("run") + "/voxtact-run.json";
-    const std::string manifest = readText(file);
-    for (const std::string& damage :
-         {std::string(), std::string("{}"), manifest.substr(0, manifest.size() / 2), "[" + manifest + "]",
-          std::string(manifest).replace(manifest.find("pose,"), 4, "POSE")}) {
-        writeText(file, damage);
-        EXPECT_THAT(refused(1, {"merge", path("run")}), HasSubstr("is damaged; the command that made it"));
-        EXPECT_THAT(refused(1, chunked({"--threshold", "0.3"})), HasSubstr("no chunk there is of this command"));
-        EXPECT_EQ(readText(file), damage) << "nothing is written but by the command that made it";
-        const Ran ran = run(chunked());
-        EXPECT_EQ(ran.status, 0);
-        EXPECT_EQ(ran.out, whole);
-        EXPECT_THAT(ran.err, AllOf(HasSubstr("was damaged and is written anew"), HasSubstr("were there already")));
-        EXPECT_EQ(readText(file), manifest);
-        EXPECT_EQ(output({"merge", path("run")}), whole);
-    }
-    // One that says that it is of another version is this one's all the same where its chunks are.
-    std::string other = manifest;
-    other.replace(other.find(": 2"), 3, ": 1");
-    writeText(file, other);
-    EXPECT_THAT(refused(1, {"merge", path("run")}), HasSubstr("is of another version of voxtact; begin anew"));
-    EXPECT_EQ(run(chunked()).out, whole);
-    EXPECT_EQ(readText(file), manifest);
-    for (const fs::path& chunk : chunkFiles()) {
-        fs::remove(chunk);
-    }
-    writeText(file, other);
-    EXPECT_THAT(refused(1, chunked()), HasSubstr("is of another version of voxtact; begin anew"));
-}
-
-TEST_F(ChunksTest, ADamagedManifestWaitsForOthers) {
-    const std::string whole = output(chunked());
-    const std::string file = path("run") + "/voxtact-run.json";
-    const std::string manifest = readText(file);
-    writeText(file, "");
-    {
-        const HeldLock other(path("run") + "/run.lock", LOCK_SH);
-        EXPECT_THAT(refused(1, chunked()), HasSubstr("is damaged, and other processes are at work"));
-    }
-    auto held = std::make_unique<HeldLock>(path("run") + "/run.lock", LOCK_EX);
-    std::thread goes([&] {
-        std::this_thread::sleep_for(std::chrono::milliseconds(300));
-        held.reset();
-    });
-    EXPECT_EQ(run(chunked()).out, whole);
-    goes.join();
-    // Whoever had the lock has written it meanwhile.
-    writeText(file, "");
-    held = std::make_unique<HeldLock>(path("run") + "/run.lock", LOCK_SH);
-    std::thread writes([&] {
-        std::this_thread::sleep_for(std::chrono::milliseconds(300));
-        writeText(file, manifest);
-    });
-    EXPECT_EQ(run(chunked({"--shard", "1/2"})).status, 0);
-    writes.join();
-    EXPECT_EQ(readText(file), manifest);
 }
 
 TEST_F(ChunksTest, TwoProcessesDoNotDoTheSame) {

@@ -133,7 +133,7 @@ Error withWhatIsThere(Error error, const RunFolder& folder) {
 
 void addNotes(const RunFolder& folder, const Tally& tally, std::vector<std::string>& notes) {
     if (folder.isWrittenAnew()) {
-        notes.push_back("the list of what is in " + folderText(folder.path()) + " was damaged and is written anew");
+        notes.push_back("the manifest in " + folderText(folder.path()) + " was damaged and is written anew");
     }
     if (tally.damaged > 0) {
         notes.push_back(chunksText(tally.damaged) + " in " + folderText(folder.path()) +

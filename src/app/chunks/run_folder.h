@@ -35,7 +35,7 @@ class RunFolder {
     /// The manifest that is in the folder.
     [[nodiscard]] const RunManifest& manifest() const noexcept { return manifest_; }
     [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
-    /// Whether open() found it damaged.
+    /// Whether open() found the manifest damaged, and has written it anew.
     [[nodiscard]] bool isWrittenAnew() const noexcept { return isWrittenAnew_; }
 
     /// Where an output's part of a chunk is, and the first line of that file.
@@ -53,7 +53,7 @@ class RunFolder {
 
     RunFolder(std::filesystem::path path, RunManifest manifest);
     [[nodiscard]] Result<void> lock(const std::optional<Shard>& shard);
-    /// Whether it was.
+    /// Returns whether the manifest was damaged, and is written anew.
     [[nodiscard]] Result<bool> writeAnewIfDamaged() const;
     [[nodiscard]] Result<bool> writeAnew() const;
     /// Whether a file is named as one of this run's chunks.
