@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <csignal>
-#include <fcntl.h>
 #include <random>
 #include <sys/file.h>
 #include <sys/stat.h>
