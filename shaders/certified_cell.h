@@ -70,16 +70,21 @@ EXACT float certifiedEntry(CertifiedItem item, float stored) {
     return entry;
 }
 
-/// Clips a polygon to one side of a plane across an axis: point * sign >= limit * sign. Returns the corners left.
+/// How far a point is inside of a plane across an axis.
+EXACT float certifiedInsideBy(VoxelPoint point, int axis, float limit, bool above) {
+    const float place = voxelAlong(point, axis);
+    PRECISE float distance = above ? place - limit : limit - place;
+    return distance;
+}
+
+/// Clips a polygon to one side of a plane across an axis: point * sign >= limit * sign. Returns the corners left. Each
+/// corner is read once: which one is only known at run time, and devices keep such arrays in memory.
 EXACT int certifiedClipPlane(ARRAY(VoxelPoint, corners, CERTIFIED_MAX_CORNERS), int count, int axis, float limit,
                              bool above) {
-    float distances[CERTIFIED_MAX_CORNERS];
     float least = 0.0f;
     float greatest = -1.0f;
     for (int i = 0; i < count; ++i) {
-        const float place = voxelAlong(corners[i], axis);
-        PRECISE float distance = above ? place - limit : limit - place;
-        distances[i] = distance;
+        const float distance = certifiedInsideBy(corners[i], axis, limit, above);
         least = certifiedMin(least, distance);
         greatest = certifiedMax(greatest, distance);
     }
@@ -91,24 +96,29 @@ EXACT int certifiedClipPlane(ARRAY(VoxelPoint, corners, CERTIFIED_MAX_CORNERS), 
     }
     VoxelPoint kept[CERTIFIED_MAX_CORNERS];
     int keptCount = 0;
+    VoxelPoint here = corners[0];
+    float distanceHere = certifiedInsideBy(here, axis, limit, above);
     for (int i = 0; i < count; ++i) {
-        const int after = i + 1 < count ? i + 1 : 0;
-        const bool insideHere = distances[i] >= 0.0f;
-        const bool insideNext = distances[after] >= 0.0f;
+        const VoxelPoint next = corners[i + 1 < count ? i + 1 : 0];
+        const float distanceNext = certifiedInsideBy(next, axis, limit, above);
+        const bool insideHere = distanceHere >= 0.0f;
+        const bool insideNext = distanceNext >= 0.0f;
         if (insideHere && keptCount < CERTIFIED_MAX_CORNERS) {
-            kept[keptCount++] = corners[i];
+            kept[keptCount++] = here;
         }
         if (insideHere != insideNext && keptCount < CERTIFIED_MAX_CORNERS) {
             // From inside to outside, whichever comes first.
-            const int inside = insideHere ? i : after;
-            const int outside = insideHere ? after : i;
-            PRECISE float span = distances[inside] - distances[outside];
-            PRECISE float weight = distances[inside] * exactReciprocal(span);
-            const VoxelPoint from = corners[inside];
-            const VoxelPoint to = corners[outside];
+            const VoxelPoint from = insideHere ? here : next;
+            const VoxelPoint to = insideHere ? next : here;
+            const float inside = insideHere ? distanceHere : distanceNext;
+            const float outside = insideHere ? distanceNext : distanceHere;
+            PRECISE float span = inside - outside;
+            PRECISE float weight = inside * exactReciprocal(span);
             kept[keptCount++] = voxelPoint(exactLerp(from.x, to.x, weight), exactLerp(from.y, to.y, weight),
                                            exactLerp(from.z, to.z, weight));
         }
+        here = next;
+        distanceHere = distanceNext;
     }
     for (int i = 0; i < keptCount; ++i) {
         corners[i] = kept[i];

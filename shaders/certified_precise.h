@@ -254,28 +254,37 @@ EXACT PrecisePoint preciseCut(PrecisePoint inside, PrecisePoint outside, Precise
     return cut;
 }
 
+/// certifiedInsideBy() of a precise point, and `beyond` more.
+EXACT PreciseTwo preciseInsideBy(PrecisePoint point, int axis, float limit, bool above, float beyond) {
+    const PreciseTwo past = precisePlus(preciseAlong(point, axis), preciseTwo(-limit, 0.0f));
+    return precisePlus(above ? past : preciseTwo(-past.high, -past.low), preciseTwo(beyond, 0.0f));
+}
+
 /// certifiedClipPlane() of precise points; what is up to `beyond` past the plane is kept.
 EXACT int preciseClipPlane(ARRAY(PrecisePoint, corners, CERTIFIED_MAX_CORNERS), int count, int axis, float limit,
                            bool above, float beyond) {
-    PreciseTwo distances[CERTIFIED_MAX_CORNERS];
-    for (int i = 0; i < count; ++i) {
-        const PreciseTwo past = precisePlus(preciseAlong(corners[i], axis), preciseTwo(-limit, 0.0f));
-        distances[i] = precisePlus(above ? past : preciseTwo(-past.high, -past.low), preciseTwo(beyond, 0.0f));
-    }
     PrecisePoint kept[CERTIFIED_MAX_CORNERS];
     int keptCount = 0;
-    for (int i = 0; i < count; ++i) {
-        const int after = i + 1 < count ? i + 1 : 0;
-        const bool insideHere = distances[i].high >= 0.0f;
-        const bool insideNext = distances[after].high >= 0.0f;
-        if (insideHere && keptCount < CERTIFIED_MAX_CORNERS) {
-            kept[keptCount++] = corners[i];
+    // The first round finds how far inside the first corner is: one place for all corners, where their distance is told.
+    PrecisePoint here = corners[0];
+    PreciseTwo distanceHere = preciseTwo(0.0f, 0.0f);
+    for (int i = -1; i < count; ++i) {
+        const PrecisePoint next = corners[i + 1 < count ? i + 1 : 0];
+        const PreciseTwo distanceNext = preciseInsideBy(next, axis, limit, above, beyond);
+        const bool insideHere = distanceHere.high >= 0.0f;
+        const bool insideNext = distanceNext.high >= 0.0f;
+        if (i >= 0 && insideHere && keptCount < CERTIFIED_MAX_CORNERS) {
+            kept[keptCount++] = here;
         }
-        if (insideHere != insideNext && keptCount < CERTIFIED_MAX_CORNERS) {
-            const int inside = insideHere ? i : after;
-            const int outside = insideHere ? after : i;
-            kept[keptCount++] = preciseCut(corners[inside], corners[outside], distances[inside], distances[outside]);
+        if (i >= 0 && insideHere != insideNext && keptCount < CERTIFIED_MAX_CORNERS) {
+            const PrecisePoint from = insideHere ? here : next;
+            const PrecisePoint to = insideHere ? next : here;
+            const PreciseTwo inside = insideHere ? distanceHere : distanceNext;
+            const PreciseTwo outside = insideHere ? distanceNext : distanceHere;
+            kept[keptCount++] = preciseCut(from, to, inside, outside);
         }
+        here = next;
+        distanceHere = distanceNext;
     }
     for (int i = 0; i < keptCount; ++i) {
         corners[i] = kept[i];

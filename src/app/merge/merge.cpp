@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/chunks/run_chunks.h"
 #include "app/commands.h"
+#include "app/detect/side_files.h"
 #include "app/output/target_path.h"
 #include "core/base/try.h"
 
@@ -22,29 +23,34 @@ Examples:
   voxtact detect --volume head.nii.gz --mesh tool.stl --poses poses.txt --resume run --shard 2/2
   voxtact merge run --output rows.csv)";
 
+/// A file in addition to the rows; an empty path: it is not asked for.
+struct MergeFile {
+    std::string option;
+    std::string help;
+    std::filesystem::path path;
+};
+
+/// All that the commands write in chunks.
+std::vector<MergeFile> filesOfRuns() {
+    std::vector<MergeFile> files;
+    for (const SideFileFacts& side : sideFileTable()) {
+        const std::string ending = side.ending;
+        files.push_back({side.option,
+                         "a " + ending + (ending.empty() ? "" : " ") + "file for what detect " + side.option + " writes",
+                         {}});
+    }
+    files.push_back({"--by-target", "a file for what plan --by-target writes", {}});
+    files.push_back({"--surface",
+                     "a .ply file for what plan --surface writes; of several targets a path with {target}",
+                     {}});
+    files.push_back({"--heat-map", "the same of plan --heat-map, with the ending it was asked for", {}});
+    return files;
+}
+
 struct MergeOptions {
     std::filesystem::path folder;
     std::filesystem::path output;
-    std::filesystem::path triangles;
-    std::filesystem::path closest;
-    std::filesystem::path labels;
-    std::filesystem::path labelAreas;
-    std::filesystem::path triangleAreas;
-    std::filesystem::path byTarget;
-    std::filesystem::path surface;
-    std::filesystem::path heatMap;
-
-    /// Those in addition to the rows.
-    [[nodiscard]] MergePaths files() const {
-        return {{"--triangles", triangles},
-                {"--closest", closest},
-                {"--label-clearance", labels},
-                {"--label-area", labelAreas},
-                {"--triangle-area", triangleAreas},
-                {"--by-target", byTarget},
-                {"--surface", surface},
-                {"--heat-map", heatMap}};
-    }
+    std::vector<MergeFile> files = filesOfRuns();
 };
 
 /// The files of an output: where each target has one, all of them.
@@ -63,7 +69,7 @@ std::vector<NamedPath> filesOf(const std::string& option, const std::filesystem:
 Result<MergePaths> pathsOf(const MergeOptions& options, const RunFolder& folder) {
     MergePaths paths{{"--output", options.output}};
     std::vector<NamedPath> files{{"--output", options.output.empty() ? "-" : options.output}};
-    for (const auto& [option, path] : options.files()) {
+    for (const auto& [option, help, path] : options.files) {
         if (path.empty()) {
             continue;
         }
@@ -106,15 +112,9 @@ Command addMerge(CLI::App& program) {
     parser->footer(kMergeFooter);
     parser->add_option("DIR", options->folder, "the folder of the run, as --resume named it")->required();
     addPath(*parser, "--output", options->output, "a file for the rows, or - for standard output, the default");
-    addPath(*parser, "--triangles", options->triangles, "a file for what detect --triangles writes");
-    addPath(*parser, "--closest", options->closest, "a .csv file for what detect --closest writes");
-    addPath(*parser, "--label-clearance", options->labels, "a file for what detect --label-clearance writes");
-    addPath(*parser, "--label-area", options->labelAreas, "a file for what detect --label-area writes");
-    addPath(*parser, "--triangle-area", options->triangleAreas, "a file for what detect --triangle-area writes");
-    addPath(*parser, "--by-target", options->byTarget, "a file for what plan --by-target writes");
-    addPath(*parser, "--surface", options->surface,
-            "a .ply file for what plan --surface writes; of several targets a path with {target}");
-    addPath(*parser, "--heat-map", options->heatMap, "the same of plan --heat-map, with the ending it was asked for");
+    for (MergeFile& file : options->files) {
+        addPath(*parser, file.option.c_str(), file.path, file.help);
+    }
     return {parser, [options] { return runMerge(*options); }};
 }
 
