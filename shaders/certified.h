@@ -196,12 +196,12 @@ EXACT bool certifiedCellAllOpaque(OpacityTable table, CertifiedCell cell) {
 }
 
 /// Whether one of a polygon's corners is certainly in the domain: the witness.
-EXACT bool certifiedSafeCorner(CertifiedCell cell, ARRAY(VoxelPoint, corners, CERTIFIED_MAX_CORNERS), int count,
+EXACT bool certifiedSafeCorner(CertifiedCell cell HANDED(VoxelPoint, polygon, CERTIFIED_MAX_CORNERS), int count,
                                OUT(VoxelPoint) witness) {
-    witness = corners[0];
+    witness = polygon[0];
     for (int i = 0; i < count; ++i) {
-        if (certifiedSafe(cell, corners[i])) {
-            witness = corners[i];
+        if (certifiedSafe(cell, polygon[i])) {
+            witness = polygon[i];
             return true;
         }
     }
@@ -209,21 +209,22 @@ EXACT bool certifiedSafeCorner(CertifiedCell cell, ARRAY(VoxelPoint, corners, CE
 }
 
 /// Decides a fragment: the polygon of certifiedClip() in its cell. `witness` is set where it is certain.
-EXACT int certifiedDecide(OpacityTable table, CertifiedCell cell, float resolution,
-                          ARRAY(VoxelPoint, corners, CERTIFIED_MAX_CORNERS), int count, OUT(CertifiedWitness) witness) {
+EXACT int certifiedDecide(OpacityTable table, CertifiedCell cell,
+                          float resolution HANDED(VoxelPoint, polygon, CERTIFIED_MAX_CORNERS), int count,
+                          OUT(CertifiedWitness) witness) {
     CertifiedPiece stack[CERTIFIED_STACK];
     CertifiedSamples samples;
     samples.some = false;
     samples.lo = 0.0f;
     samples.hi = 0.0f;
-    samples.atLo = corners[0];
-    samples.atHi = corners[0];
-    witness = certifiedWitnessAt(corners[0], 0.0f);
+    samples.atLo = polygon[0];
+    samples.atHi = polygon[0];
+    witness = certifiedWitnessAt(polygon[0], 0.0f);
     int waiting = 0;
     for (int i = count - 2; i > 0; --i) {
-        stack[waiting].a = corners[0];
-        stack[waiting].b = corners[i];
-        stack[waiting].c = corners[i + 1];
+        stack[waiting].a = polygon[0];
+        stack[waiting].b = polygon[i];
+        stack[waiting].c = polygon[i + 1];
         ++waiting;
     }
     bool open = false;
@@ -231,9 +232,9 @@ EXACT int certifiedDecide(OpacityTable table, CertifiedCell cell, float resoluti
         if (pieces == CERTIFIED_MAX_PIECES) {
             // Corners of pieces that were not looked at: certifiedVertexProves() does not depend on their order.
             for (int i = 0; i < count; ++i) {
-                const float entry = certifiedInterpolate(cell, corners[i].x, corners[i].y, corners[i].z);
-                if (certifiedPointProves(table, cell, corners[i], entry)) {
-                    witness = certifiedWitnessAt(corners[i], entry);
+                const float entry = certifiedInterpolate(cell, polygon[i].x, polygon[i].y, polygon[i].z);
+                if (certifiedPointProves(table, cell, polygon[i], entry)) {
+                    witness = certifiedWitnessAt(polygon[i], entry);
                     return CERTIFIED_CERTAIN;
                 }
             }
@@ -392,25 +393,25 @@ EXACT bool certifiedBeginMay(OpacityTable table, CertifiedTriangle triangle, Cer
 }
 
 /// The polygon of a fragment. None where it has no opaque point. Expects a cell that may have one.
-EXACT int certifiedBegin(OpacityTable table, CertifiedTriangle triangle, CertifiedCell cell, int x, int y, int z,
-                         ARRAY(VoxelPoint, polygon, CERTIFIED_MAX_CORNERS)) {
+EXACT int certifiedBegin(OpacityTable table, CertifiedTriangle triangle, CertifiedCell cell, int x, int y,
+                         int z HANDED(VoxelPoint, polygon, CERTIFIED_MAX_CORNERS)) {
     if (!certifiedBeginMay(table, triangle, cell, x, y, z)) {
         return 0;
     }
-    return certifiedClip(triangle, cell, voxelPoint(float(x), float(y), float(z)), polygon);
+    return certifiedClip(triangle, cell, voxelPoint(float(x), float(y), float(z)) HAND(polygon));
 }
 
 /// The same of a precise triangle, in the cell of preciseCell(), or of what is certainly in the domain, `within`, in
 /// that of preciseWithin(). CERTIFIED_NO_POLYGON where nothing can be said.
-EXACT int certifiedBeginAgain(PreciseTriangle triangle, CertifiedCell cell, int x, int y, int z, bool within,
-                              ARRAY(VoxelPoint, polygon, CERTIFIED_MAX_CORNERS)) {
+EXACT int certifiedBeginAgain(PreciseTriangle triangle, CertifiedCell cell, int x, int y, int z,
+                              bool within HANDED(VoxelPoint, polygon, CERTIFIED_MAX_CORNERS)) {
     if (!preciseKnown(triangle)) {
         return CERTIFIED_NO_POLYGON;
     }
     if (triangle.outside) {
         return 0;
     }
-    return preciseClip(triangle, cell, voxelPoint(float(x), float(y), float(z)), within, polygon);
+    return preciseClip(triangle, cell, voxelPoint(float(x), float(y), float(z)), within HAND(polygon));
 }
 
 /// The resolution for precise triangles: what few fragments are left may take longer.
@@ -419,8 +420,9 @@ EXACT float certifiedFinest(CertifiedItem item) {
 }
 
 /// A fragment's verdict, from its polygon. `witness` is set where it is certain.
-EXACT int certifiedSettle(OpacityTable table, float resolution, CertifiedCell cell,
-                          ARRAY(VoxelPoint, polygon, CERTIFIED_MAX_CORNERS), int count, OUT(CertifiedWitness) witness) {
+EXACT int certifiedSettle(OpacityTable table, float resolution,
+                          CertifiedCell cell HANDED(VoxelPoint, polygon, CERTIFIED_MAX_CORNERS), int count,
+                          OUT(CertifiedWitness) witness) {
     witness = certifiedWitnessAt(voxelPoint(0.0f, 0.0f, 0.0f), 0.0f);
     if (count == 0) {
         return CERTIFIED_NONE;
@@ -429,11 +431,11 @@ EXACT int certifiedSettle(OpacityTable table, float resolution, CertifiedCell ce
         return CERTIFIED_UNDECIDED;
     }
     VoxelPoint within;
-    if (certifiedCellAllOpaque(table, cell) && certifiedSafeCorner(cell, polygon, count, within)) {
+    if (certifiedCellAllOpaque(table, cell) && certifiedSafeCorner(cell HAND(polygon), count, within)) {
         witness = certifiedWitnessAt(within, certifiedInterpolate(cell, within.x, within.y, within.z));
         return CERTIFIED_CERTAIN;
     }
-    return certifiedDecide(table, cell, resolution, polygon, count, witness);
+    return certifiedDecide(table, cell, resolution HAND(polygon), count, witness);
 }
 
 /// Whether a vertex alone proves that its triangle touches, in the cell (x, y, z) that it is in. Expects a cell of a

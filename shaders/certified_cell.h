@@ -77,14 +77,34 @@ EXACT float certifiedInsideBy(VoxelPoint point, int axis, float limit, bool abov
     return distance;
 }
 
-/// Clips a polygon to one side of a plane across an axis: point * sign >= limit * sign. Returns the corners left. Each
-/// corner is read once: which one is only known at run time, and devices keep such arrays in memory.
-EXACT int certifiedClipPlane(ARRAY(VoxelPoint, corners, CERTIFIED_MAX_CORNERS), int count, int axis, float limit,
-                             bool above) {
+/// Where the edge from a corner inside of a plane to one outside meets it, by how far they are inside.
+EXACT VoxelPoint certifiedCut(VoxelPoint from, VoxelPoint to, float inside, float outside) {
+    PRECISE float span = inside - outside;
+    PRECISE float weight = inside * exactReciprocal(span);
+    return voxelPoint(exactLerp(from.x, to.x, weight), exactLerp(from.y, to.y, weight),
+                      exactLerp(from.z, to.z, weight));
+}
+
+EXACT float certifiedClamp(float value, float lo, float hi) {
+    return value >= lo ? (value <= hi ? value : hi) : lo;
+}
+
+#ifndef __cplusplus // as HANDED says
+VoxelPoint halves[2 * CERTIFIED_MAX_CORNERS];
+VoxelPoint polygon[CERTIFIED_MAX_CORNERS];
+#endif
+
+/// Clips a polygon of `count` corners, which begins at `first` in `halves`, to one side of a plane across an axis:
+/// point
+/// * sign >= limit * sign. Returns the corners left. Where some are cut off, what is left is in the other half, and
+/// `first` says so: nothing is copied. Each corner is read once: which one is only known at run time, and devices keep
+/// such arrays in memory.
+EXACT int certifiedClipPlane(INOUT(int) first HANDED(VoxelPoint, halves, 2 * CERTIFIED_MAX_CORNERS), int count,
+                             int axis, float limit, bool above) {
     float least = 0.0f;
     float greatest = -1.0f;
     for (int i = 0; i < count; ++i) {
-        const float distance = certifiedInsideBy(corners[i], axis, limit, above);
+        const float distance = certifiedInsideBy(halves[first + i], axis, limit, above);
         least = certifiedMin(least, distance);
         greatest = certifiedMax(greatest, distance);
     }
@@ -94,50 +114,43 @@ EXACT int certifiedClipPlane(ARRAY(VoxelPoint, corners, CERTIFIED_MAX_CORNERS), 
     if (!(greatest >= 0.0f)) {
         return 0;
     }
-    VoxelPoint kept[CERTIFIED_MAX_CORNERS];
-    int keptCount = 0;
-    VoxelPoint here = corners[0];
+    const int left = CERTIFIED_MAX_CORNERS - first;
+    int kept = 0;
+    VoxelPoint here = halves[first];
     float distanceHere = certifiedInsideBy(here, axis, limit, above);
     for (int i = 0; i < count; ++i) {
-        const VoxelPoint next = corners[i + 1 < count ? i + 1 : 0];
+        const VoxelPoint next = halves[first + (i + 1 < count ? i + 1 : 0)];
         const float distanceNext = certifiedInsideBy(next, axis, limit, above);
         const bool insideHere = distanceHere >= 0.0f;
         const bool insideNext = distanceNext >= 0.0f;
-        if (insideHere && keptCount < CERTIFIED_MAX_CORNERS) {
-            kept[keptCount++] = here;
+        if (insideHere && kept < CERTIFIED_MAX_CORNERS) {
+            halves[left + kept++] = here;
         }
-        if (insideHere != insideNext && keptCount < CERTIFIED_MAX_CORNERS) {
+        if (insideHere != insideNext && kept < CERTIFIED_MAX_CORNERS) {
             // From inside to outside, whichever comes first.
-            const VoxelPoint from = insideHere ? here : next;
-            const VoxelPoint to = insideHere ? next : here;
-            const float inside = insideHere ? distanceHere : distanceNext;
-            const float outside = insideHere ? distanceNext : distanceHere;
-            PRECISE float span = inside - outside;
-            PRECISE float weight = inside * exactReciprocal(span);
-            kept[keptCount++] = voxelPoint(exactLerp(from.x, to.x, weight), exactLerp(from.y, to.y, weight),
-                                           exactLerp(from.z, to.z, weight));
+            halves[left + kept++] =
+                certifiedCut(insideHere ? here : next, insideHere ? next : here,
+                             insideHere ? distanceHere : distanceNext, insideHere ? distanceNext : distanceHere);
         }
         here = next;
         distanceHere = distanceNext;
     }
-    for (int i = 0; i < keptCount; ++i) {
-        corners[i] = kept[i];
-    }
-    return keptCount;
-}
-
-EXACT float certifiedClamp(float value, float lo, float hi) {
-    return value >= lo ? (value <= hi ? value : hi) : lo;
+    first = left;
+    return kept;
 }
 
 /// The part of a triangle in a cell: a polygon whose points are displaced by less than twice the triangle's delta, in
-/// `corners`, relative to the cell's corner and within the cell. Returns the number of corners; 0: the triangle does
+/// `polygon`, relative to the cell's corner and within the cell. Returns the number of corners; 0: the triangle does
 /// not pass through the cell.
-EXACT int certifiedClip(CertifiedTriangle triangle, CertifiedCell cell, VoxelPoint origin,
-                        ARRAY(VoxelPoint, corners, CERTIFIED_MAX_CORNERS)) {
-    corners[0] = voxelDifference(triangle.corner0, origin);
-    corners[1] = voxelDifference(triangle.corner1, origin);
-    corners[2] = voxelDifference(triangle.corner2, origin);
+EXACT int certifiedClip(CertifiedTriangle triangle, CertifiedCell cell,
+                        VoxelPoint origin HANDED(VoxelPoint, polygon, CERTIFIED_MAX_CORNERS)) {
+#ifdef __cplusplus
+    VoxelPoint halves[2 * CERTIFIED_MAX_CORNERS];
+#endif
+    halves[0] = voxelDifference(triangle.corner0, origin);
+    halves[1] = voxelDifference(triangle.corner1, origin);
+    halves[2] = voxelDifference(triangle.corner2, origin);
+    int first = 0;
     int count = 3;
     // Below and above along each axis. One call for all, as everywhere where a function is long: compilers of shaders
     // copy it wherever it is called.
@@ -146,12 +159,13 @@ EXACT int certifiedClip(CertifiedTriangle triangle, CertifiedCell cell, VoxelPoi
         const bool above = (side & 1) == 0;
         PRECISE float lo = voxelAlong(cell.lo, axis) - triangle.delta;
         PRECISE float hi = voxelAlong(cell.hi, axis) + triangle.delta;
-        count = certifiedClipPlane(corners, count, axis, above ? lo : hi, above);
+        count = certifiedClipPlane(first HAND(halves), count, axis, above ? lo : hi, above);
     }
-    for (int i = 0; i < count; ++i) {
-        corners[i] = voxelPoint(certifiedClamp(corners[i].x, cell.lo.x, cell.hi.x),
-                                certifiedClamp(corners[i].y, cell.lo.y, cell.hi.y),
-                                certifiedClamp(corners[i].z, cell.lo.z, cell.hi.z));
+    UNKNOWN_ROUNDS for (int i = 0; i < count; ++i) {
+        const VoxelPoint corner = halves[first + i];
+        polygon[i] =
+            voxelPoint(certifiedClamp(corner.x, cell.lo.x, cell.hi.x), certifiedClamp(corner.y, cell.lo.y, cell.hi.y),
+                       certifiedClamp(corner.z, cell.lo.z, cell.hi.z));
     }
     return count;
 }

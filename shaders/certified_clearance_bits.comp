@@ -2,6 +2,7 @@
 // Where clearances are measured: the bits of the bricks that want them, a work group per brick.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #define MARGIN
 #define CLEARANCE
 #include "shared.h"

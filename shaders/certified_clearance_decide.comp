@@ -4,6 +4,7 @@
 // from its nearest triangle: that bounds the distance above.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #define MARGIN
 #define CLEARANCE
 #include "shared.h"

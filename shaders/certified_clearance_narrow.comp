@@ -3,6 +3,7 @@
 // AGAIN, those go on in which what may be opaque may be nearer than what is known by then.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #define MARGIN
 #define CLEARANCE
 #include "shared.h"

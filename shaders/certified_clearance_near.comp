@@ -4,6 +4,7 @@
 // go on that may be nearer than what is known.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #define MARGIN
 #define CLEARANCE
 #include "shared.h"

@@ -3,6 +3,7 @@
 // lane a near one. With PROBE that pass only bounds the distance above.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #define MARGIN
 #define CLEARANCE
 #include "shared.h"

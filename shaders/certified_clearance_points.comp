@@ -3,6 +3,7 @@
 // a triangle.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "clearance_words.h"
 #include "voxtact/device_results.h"
 

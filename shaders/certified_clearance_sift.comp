@@ -5,6 +5,7 @@
 // distance above. Triangles that are farther from the brick than what is known are taken out of the entry.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #define MARGIN
 #define CLEARANCE
 #include "shared.h"

@@ -8,6 +8,7 @@
 // on that may be nearer to something opaque than what is known of their pair; SCOUT is the first step, which ends here.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "shared.h"
 #include "voxtact/device_results.h"
 

@@ -3,6 +3,7 @@
 // certified_finish.comp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #ifdef OUTPUTS
 #extension GL_EXT_samplerless_texture_functions : require
 #endif
@@ -24,10 +25,9 @@ int decide(uvec4 entry) {
     const CertifiedCorners corners = cornersOf(cell, brickAt((cell + 1) >> VOXTACT_BRICK_SHIFT));
     const CertifiedCell known = certifiedCell(constants.item, corners, cell.x, cell.y, cell.z, triangle.delta);
     // The pass that found the cell has made the tests of certifiedBegin().
-    VoxelPoint polygon[CERTIFIED_MAX_CORNERS];
-    const int count = certifiedClip(triangle, known, voxelPoint(float(cell.x), float(cell.y), float(cell.z)), polygon);
+    const int count = certifiedClip(triangle, known, voxelPoint(float(cell.x), float(cell.y), float(cell.z)));
     CertifiedWitness witness;
-    const int verdict = certifiedSettle(opacities(), constants.item.resolution, known, polygon, count, witness);
+    const int verdict = certifiedSettle(opacities(), constants.item.resolution, known, count, witness);
 #if defined(OUTPUTS) || defined(TOUCHES)
     if (verdict == CERTIFIED_CERTAIN && !isCut()) {
         emitWitness(entry.x, entry.y, corners, witness, cell);

@@ -4,6 +4,7 @@
 // groups share it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "shared.h"
 #include "voxtact/device_results.h"
 

@@ -44,10 +44,9 @@ void decideCell(Placed triangle, ivec3 cell, vec4 range) {
     CertifiedWitness witness;
     while (verdict == CERTIFIED_UNDECIDED && attempt < 3) {
         ++attempt;
-        VoxelPoint polygon[CERTIFIED_MAX_CORNERS];
         int count;
         if (attempt == 0) {
-            count = certifiedBegin(opacities(), triangle.rounded, known, cell.x, cell.y, cell.z, polygon);
+            count = certifiedBegin(opacities(), triangle.rounded, known, cell.x, cell.y, cell.z);
         } else {
             if (attempt < 3) {
                 if (attempt == 2) {
@@ -59,10 +58,10 @@ void decideCell(Placed triangle, ivec3 cell, vec4 range) {
             } else {
                 break;
             }
-            count = certifiedBeginAgain(triangle.precisely, known, cell.x, cell.y, cell.z, attempt == 3, polygon);
+            count = certifiedBeginAgain(triangle.precisely, known, cell.x, cell.y, cell.z, attempt == 3);
         }
         const float resolution = attempt == 0 ? constants.item.resolution : certifiedFinest(constants.item);
-        verdict = certifiedSettle(opacities(), resolution, known, polygon, count, witness);
+        verdict = certifiedSettle(opacities(), resolution, known, count, witness);
         // What is certainly in the domain has no opaque point, but there is more.
         verdict = attempt == 3 && verdict == CERTIFIED_NONE ? CERTIFIED_UNDECIDED : verdict;
     }
@@ -105,7 +104,7 @@ void decideShare(Share given) {
     }
     const Placed triangle =
         Placed(share.pair, share.number, triangleOf(at, bounds.delta), bounds.usable, share.single,
-               preciseTriangle(transform, constants.item, at.object[0], at.object[1], at.object[2]));
+               preciseTriangle(share.pair, constants.item, at.object[0], at.object[1], at.object[2]));
     const PrecisePlane plane = precisePlane(constants.item, triangle.precisely);
     const bool isKnown = triangle.usable || preciseKnown(triangle.precisely);
     const CellBox box = bricksOf(cells);

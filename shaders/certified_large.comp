@@ -3,6 +3,7 @@
 // as it has lanes. The lanes share the blocks, then the bricks of each block that may touch, and then their cells.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "shared.h"
 #include "voxtact/device_results.h"
 

@@ -2,6 +2,7 @@
 // The projection `conservative` with a margin, the decision: a lane per cell. What it leaves undecided is *possible*.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #define MARGIN
 #include "shared.h"
 #include "voxtact/device_results.h"

@@ -7,6 +7,7 @@
 // certified_margin_finish. What is put twice does no harm: the answer is yes where one says so.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #define MARGIN
 #include "shared.h"
 #include "voxtact/device_results.h"

@@ -3,6 +3,7 @@
 // for, found and decided here. Each entry of that has as many work groups as its bricks need.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #define MARGIN
 #include "shared.h"
 #include "voxtact/device_results.h"

@@ -7,6 +7,7 @@
 // to certified_margin_finish, whose work groups share it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #define MARGIN
 #include "shared.h"
 #include "voxtact/device_results.h"

@@ -23,6 +23,16 @@
 namespace voxtact::shader {
 #endif
 
+// A pair is in GLSL its number among `transforms`: what a loop chooses of it is read there, while all of it would be
+// copied before an index could choose.
+#ifdef __cplusplus
+using PairHandle = CertifiedPair;
+#define PAIR_OF(pair) pair
+#else
+#define PairHandle uint
+#define PAIR_OF(pair) transforms[pair]
+#endif
+
 /// high + middle + low, within `missing` of what was added up.
 struct PreciseThree {
     float high, middle, low, missing;
@@ -85,14 +95,14 @@ struct PreciseVertex {
 };
 
 /// Millimetres from the near face of the domain, or voxels where the axes of the grid are not those of the world.
-EXACT PreciseThree preciseFromFace(CertifiedPair pair, int axis, VoxelPoint vertex) {
+EXACT PreciseThree preciseFromFace(PairHandle pair, int axis, VoxelPoint vertex) {
     PreciseThree sum;
-    sum.high = pair.place[axis][3];
-    sum.middle = pair.place[3 + axis][3];
-    sum.low = pair.place[6 + axis][3];
+    sum.high = PAIR_OF(pair).place[axis][3];
+    sum.middle = PAIR_OF(pair).place[3 + axis][3];
+    sum.low = PAIR_OF(pair).place[6 + axis][3];
     sum.missing = 0.0f;
     ROLLED for (int part = 0; part < 3; ++part) {
-        const vec4 row = pair.place[3 * part + axis];
+        const vec4 row = PAIR_OF(pair).place[3 * part + axis];
         sum = preciseAddedProduct(sum, row[0], vertex.x);
         sum = preciseAddedProduct(sum, row[1], vertex.y);
         sum = preciseAddedProduct(sum, row[2], vertex.z);
@@ -110,7 +120,7 @@ EXACT void preciseSide(PreciseThree from, float missing, int face, INOUT(Precise
 }
 
 /// A coordinate of a vertex; `known` is what its place may be off for the numbers that it was made from.
-EXACT PreciseTwo precisePlace(CertifiedPair pair, CertifiedItem item, int axis, VoxelPoint at, float known,
+EXACT PreciseTwo precisePlace(PairHandle pair, CertifiedItem item, int axis, VoxelPoint at, float known,
                               INOUT(PreciseVertex) vertex) {
     const int size = axis == 0 ? item.sizeX : (axis == 1 ? item.sizeY : item.sizeZ);
     const float scale[3] = {item.scale[axis], item.scale[3 + axis], item.scale[6 + axis]};
@@ -135,17 +145,18 @@ EXACT PreciseTwo precisePlace(CertifiedPair pair, CertifiedItem item, int axis, 
     return precisePlus(place, preciseTwo(-0.5f, 0.0f));
 }
 
-EXACT PreciseVertex preciseVertex(CertifiedPair pair, CertifiedItem item, VoxelPoint at) {
+EXACT PreciseVertex preciseVertex(PairHandle pair, CertifiedItem item, VoxelPoint at) {
     PreciseVertex vertex;
     vertex.error = 0.0f;
     vertex.inside = 0;
     vertex.on = 0;
     vertex.beyond = 0;
     float known = 0.0f;
-    if (pair.reference[3] > 0.0f) {
-        PRECISE float terms = exactDot(pair.error, certifiedAbs(at.x - pair.reference[0]),
-                                       certifiedAbs(at.y - pair.reference[1]), certifiedAbs(at.z - pair.reference[2]));
-        known = terms * pair.reference[3];
+    if (PAIR_OF(pair).reference[3] > 0.0f) {
+        PRECISE float terms =
+            exactDot(PAIR_OF(pair).error, certifiedAbs(at.x - PAIR_OF(pair).reference[0]),
+                     certifiedAbs(at.y - PAIR_OF(pair).reference[1]), certifiedAbs(at.z - PAIR_OF(pair).reference[2]));
+        known = terms * PAIR_OF(pair).reference[3];
     }
     PreciseTwo place[3];
     ROLLED for (int axis = 0; axis < 3; ++axis) {
@@ -193,7 +204,7 @@ EXACT float preciseFarthest(PrecisePoint point) {
     return voxelLength(voxelPoint(point.x.high, point.y.high, point.z.high));
 }
 
-EXACT PreciseTriangle preciseTriangle(CertifiedPair pair, CertifiedItem item, VoxelPoint vertexA, VoxelPoint vertexB,
+EXACT PreciseTriangle preciseTriangle(PairHandle pair, CertifiedItem item, VoxelPoint vertexA, VoxelPoint vertexB,
                                       VoxelPoint vertexC) {
     const VoxelPoint vertices[3] = {vertexA, vertexB, vertexC};
     PreciseVertex placed[3];
@@ -260,38 +271,6 @@ EXACT PreciseTwo preciseInsideBy(PrecisePoint point, int axis, float limit, bool
     return precisePlus(above ? past : preciseTwo(-past.high, -past.low), preciseTwo(beyond, 0.0f));
 }
 
-/// certifiedClipPlane() of precise points; what is up to `beyond` past the plane is kept.
-EXACT int preciseClipPlane(ARRAY(PrecisePoint, corners, CERTIFIED_MAX_CORNERS), int count, int axis, float limit,
-                           bool above, float beyond) {
-    PrecisePoint kept[CERTIFIED_MAX_CORNERS];
-    int keptCount = 0;
-    // The first round finds how far inside the first corner is: one place for all corners, where their distance is told.
-    PrecisePoint here = corners[0];
-    PreciseTwo distanceHere = preciseTwo(0.0f, 0.0f);
-    for (int i = -1; i < count; ++i) {
-        const PrecisePoint next = corners[i + 1 < count ? i + 1 : 0];
-        const PreciseTwo distanceNext = preciseInsideBy(next, axis, limit, above, beyond);
-        const bool insideHere = distanceHere.high >= 0.0f;
-        const bool insideNext = distanceNext.high >= 0.0f;
-        if (i >= 0 && insideHere && keptCount < CERTIFIED_MAX_CORNERS) {
-            kept[keptCount++] = here;
-        }
-        if (i >= 0 && insideHere != insideNext && keptCount < CERTIFIED_MAX_CORNERS) {
-            const PrecisePoint from = insideHere ? here : next;
-            const PrecisePoint to = insideHere ? next : here;
-            const PreciseTwo inside = insideHere ? distanceHere : distanceNext;
-            const PreciseTwo outside = insideHere ? distanceNext : distanceHere;
-            kept[keptCount++] = preciseCut(from, to, inside, outside);
-        }
-        here = next;
-        distanceHere = distanceNext;
-    }
-    for (int i = 0; i < keptCount; ++i) {
-        corners[i] = kept[i];
-    }
-    return keptCount;
-}
-
 EXACT PrecisePoint preciseRelative(PrecisePoint point, VoxelPoint origin) {
     PrecisePoint relative;
     relative.x = precisePlus(point.x, preciseTwo(-origin.x, 0.0f));
@@ -302,12 +281,13 @@ EXACT PrecisePoint preciseRelative(PrecisePoint point, VoxelPoint origin) {
 
 /// certifiedClip() of a precise triangle that is known: a little beyond the cell. But where the domain ends and only
 /// points that are certainly in it are wanted, `within`, it is a little less.
-EXACT int preciseClip(PreciseTriangle triangle, CertifiedCell cell, VoxelPoint origin, bool within,
-                      ARRAY(VoxelPoint, polygon, CERTIFIED_MAX_CORNERS)) {
-    PrecisePoint corners[CERTIFIED_MAX_CORNERS];
+EXACT int preciseClip(PreciseTriangle triangle, CertifiedCell cell, VoxelPoint origin,
+                      bool within HANDED(VoxelPoint, polygon, CERTIFIED_MAX_CORNERS)) {
+    PrecisePoint corners[2 * CERTIFIED_MAX_CORNERS];
     corners[0] = preciseRelative(triangle.a, origin);
     corners[1] = preciseRelative(triangle.b, origin);
     corners[2] = preciseRelative(triangle.c, origin);
+    int first = 0;
     int count = 3;
     ROLLED for (int side = 0; side < PRECISE_FACES && count > 0; ++side) {
         const int axis = side >> 1;
@@ -315,12 +295,36 @@ EXACT int preciseClip(PreciseTriangle triangle, CertifiedCell cell, VoxelPoint o
         const float end = voxelAlong(above ? cell.lo : cell.hi, axis);
         const bool inwards = within && end == CERTIFIED_DOMAIN_END;
         PRECISE float twice = triangle.error + triangle.error;
-        count = preciseClipPlane(corners, count, axis, end, above, inwards ? -twice : triangle.delta);
+        const float beyond = inwards ? -twice : triangle.delta;
+        const int left = CERTIFIED_MAX_CORNERS - first;
+        int kept = 0;
+        PrecisePoint here = corners[first];
+        PreciseTwo distanceHere = preciseTwo(0.0f, 0.0f);
+        // The first round only finds how far inside the first corner is, so that this is one text for all.
+        for (int i = -1; i < count; ++i) {
+            const PrecisePoint next = corners[first + (i + 1 < count ? i + 1 : 0)];
+            const PreciseTwo distanceNext = preciseInsideBy(next, axis, end, above, beyond);
+            const bool insideHere = distanceHere.high >= 0.0f;
+            const bool insideNext = distanceNext.high >= 0.0f;
+            if (i >= 0 && insideHere && kept < CERTIFIED_MAX_CORNERS) {
+                corners[left + kept++] = here;
+            }
+            if (i >= 0 && insideHere != insideNext && kept < CERTIFIED_MAX_CORNERS) {
+                corners[left + kept++] =
+                    preciseCut(insideHere ? here : next, insideHere ? next : here,
+                               insideHere ? distanceHere : distanceNext, insideHere ? distanceNext : distanceHere);
+            }
+            here = next;
+            distanceHere = distanceNext;
+        }
+        first = left;
+        count = kept;
     }
-    for (int i = 0; i < count; ++i) {
-        polygon[i] = voxelPoint(certifiedClamp(corners[i].x.high, cell.lo.x, cell.hi.x),
-                                certifiedClamp(corners[i].y.high, cell.lo.y, cell.hi.y),
-                                certifiedClamp(corners[i].z.high, cell.lo.z, cell.hi.z));
+    UNKNOWN_ROUNDS for (int i = 0; i < count; ++i) {
+        const PrecisePoint corner = corners[first + i];
+        polygon[i] = voxelPoint(certifiedClamp(corner.x.high, cell.lo.x, cell.hi.x),
+                                certifiedClamp(corner.y.high, cell.lo.y, cell.hi.y),
+                                certifiedClamp(corner.z.high, cell.lo.z, cell.hi.z));
     }
     return count;
 }
@@ -415,6 +419,8 @@ EXACT bool precisePlaneMisses(PrecisePlane plane, VoxelPoint centre, float radiu
     PRECISE float most = extent + error;
     return certifiedAbs(distance) > most;
 }
+
+#undef PAIR_OF
 
 #include "exact_language.h"
 

@@ -4,6 +4,7 @@
 // triangle does not serialise; and by as many groups along z as the host has taken for those that are huge.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #ifdef OUTPUTS
 #extension GL_EXT_samplerless_texture_functions : require
 #endif
@@ -49,7 +50,7 @@ shared uint groupLow; // survivors of the work group: together they are more tha
 shared uint groupHigh;
 
 /// The pieces of a triangle: their number, the corners of the polygon being left in `corners`.
-int piecesOf(PairTransform transform, uint triangle, inout ExactCorner corners[EXACT_MAX_CORNERS]) {
+int piecesOf(PairTransform transform, uint triangle) {
     for (uint corner = 0; corner < 3; ++corner) {
         corners[corner] = cornerOf(constants.mesh, transform, 3 * triangle + corner);
     }
@@ -65,7 +66,7 @@ int piecesOf(PairTransform transform, uint triangle, inout ExactCorner corners[E
         exactInside(corners[2], guardX, guardY)) {
         return 1;
     }
-    return max(exactClip(corners, 3, guardX, guardY) - 2, 0);
+    return max(exactClip(3, guardX, guardY) - 2, 0);
 }
 
 uint countPixel(ExactTriangle piece, int x, int y) {
@@ -91,41 +92,37 @@ uint countPixels(ExactTriangle piece, int first, int step) {
     return survivors;
 }
 
-uint countTriangle(PairTransform transform, uint triangle) {
+/// Of a lane's own triangle the pieces that are not queued; or, with `isQueued`, of a queued piece the pixels of this
+/// lane. That piece is set up again by every lane: cheaper than keeping it. One text for both: compilers of shaders copy
+/// a function wherever it is called.
+uint countPieces(PairTransform transform, uint triangle, bool isQueued, uint queuedNumber) {
 #ifdef OUTPUTS
     triangleAtWork = triangle;
 #endif
-    ExactCorner corners[EXACT_MAX_CORNERS];
-    const int pieces = piecesOf(transform, triangle, corners);
+    int end = piecesOf(transform, triangle);
+    int number = 0;
+    int first = 0;
+    int step = 1;
+    if (isQueued) {
+        number = int(queuedNumber);
+        end = number + 1;
+        first = int(gl_LocalInvocationIndex + VOXTACT_COMPUTE_GROUP * gl_WorkGroupID.z);
+        step = int(VOXTACT_COMPUTE_GROUP * gl_NumWorkGroups.z);
+    }
     uint survivors = 0;
-    for (int number = 0; number < pieces; ++number) {
+    for (; number < end; ++number) {
         ExactTriangle piece;
-        if (exactSetUp(corners[0], corners[number + 1], corners[number + 2], constants.width, constants.height, piece)) {
-            const int pixels = (piece.maxX - piece.minX + 1) * (piece.maxY - piece.minY + 1);
-            if (pixels <= kMostPixelsOfALane) {
-                survivors += gl_WorkGroupID.z == 0 ? countPixels(piece, 0, 1) : 0;
-            } else {
-                queue[atomicAdd(queued, 1u)] = triangle * 8 + uint(number);
-            }
+        if (!exactSetUp(corners[0], corners[number + 1], corners[number + 2], constants.width, constants.height, piece)) {
+            continue;
+        }
+        const int pixels = (piece.maxX - piece.minX + 1) * (piece.maxY - piece.minY + 1);
+        if (isQueued || (pixels <= kMostPixelsOfALane && gl_WorkGroupID.z == 0)) {
+            survivors += countPixels(piece, first, step);
+        } else if (pixels > kMostPixelsOfALane) {
+            queue[atomicAdd(queued, 1u)] = triangle * 8 + uint(number);
         }
     }
     return survivors;
-}
-
-/// A queued piece, set up again by every lane: cheaper than keeping it.
-uint countQueued(PairTransform transform, uint entry) {
-#ifdef OUTPUTS
-    triangleAtWork = entry / 8;
-#endif
-    ExactCorner corners[EXACT_MAX_CORNERS];
-    piecesOf(transform, entry / 8, corners);
-    const int number = int(entry % 8);
-    ExactTriangle piece;
-    if (!exactSetUp(corners[0], corners[number + 1], corners[number + 2], constants.width, constants.height, piece)) {
-        return 0;
-    }
-    return countPixels(piece, int(gl_LocalInvocationIndex + VOXTACT_COMPUTE_GROUP * gl_WorkGroupID.z),
-                       int(VOXTACT_COMPUTE_GROUP * gl_NumWorkGroups.z));
 }
 
 void main() {
@@ -142,10 +139,19 @@ void main() {
 #endif
     const uint triangle = constants.firstTriangle + gl_GlobalInvocationID.x;
     const PairTransform transform = transforms[view];
-    uint survivors = triangle < constants.triangleCount ? countTriangle(transform, triangle) : 0;
-    barrier();
-    for (uint i = 0; i < queued; ++i) {
-        survivors += countQueued(transform, queue[i]);
+    uint survivors = 0;
+    uint turns = 1;
+    for (uint turn = 0; turn < turns; ++turn) { // its own triangle, and then what is queued, with all others
+        const bool isQueued = turn > 0;
+        const uint entry = isQueued ? queue[turn - 1] : 0;
+        const uint at = isQueued ? entry / 8 : triangle;
+        if (at < constants.triangleCount) {
+            survivors += countPieces(transform, at, isQueued, entry % 8);
+        }
+        if (turn == 0) {
+            barrier();
+            turns += queued;
+        }
     }
     if (survivors > 0) {
         const uint before = atomicAdd(groupLow, survivors);

@@ -160,36 +160,49 @@ EXACT ExactCorner exactCut(ExactCorner inside, ExactCorner outside, float distan
     return corner;
 }
 
+#ifndef __cplusplus
+ExactCorner corners[EXACT_MAX_CORNERS]; // as HANDED says
+#endif
+
 /// Clips a polygon of `count` corners by all six planes, in place; returns the number of corners that are left
-/// (Sutherland and Hodgman, "Reentrant polygon clipping", 1974).
-EXACT int exactClip(ARRAY(ExactCorner, corners, EXACT_MAX_CORNERS), int count, float guardX, float guardY) {
+/// (Sutherland and Hodgman, "Reentrant polygon clipping", 1974). What is clipped and what is left of it are the halves
+/// of one array, as in certifiedClip().
+EXACT int exactClip(int count HANDED(ExactCorner, corners, EXACT_MAX_CORNERS), float guardX, float guardY) {
+    ExactCorner both[2 * EXACT_MAX_CORNERS];
+    UNKNOWN_ROUNDS for (int i = 0; i < count; ++i) {
+        both[i] = corners[i];
+    }
+    int first = 0;
     for (int plane = 0; plane < 6; ++plane) {
-        ExactCorner kept[EXACT_MAX_CORNERS];
-        int keptCount = 0;
-        for (int i = 0; i < count; ++i) {
-            ExactCorner here = corners[i];
-            ExactCorner next = corners[i + 1 < count ? i + 1 : 0];
-            float distanceHere = exactPlane(here, plane, guardX, guardY);
+        const int left = EXACT_MAX_CORNERS - first;
+        int kept = 0;
+        ExactCorner here = both[first];
+        float distanceHere = 0.0f;
+        // The first round only finds how far inside the first corner is, so that this is one text for all.
+        for (int i = -1; i < count; ++i) {
+            ExactCorner next = both[first + (i + 1 < count ? i + 1 : 0)];
             float distanceNext = exactPlane(next, plane, guardX, guardY);
             bool insideHere = distanceHere >= 0.0f;
             bool insideNext = distanceNext >= 0.0f;
-            if (insideHere && keptCount < EXACT_MAX_CORNERS) {
-                kept[keptCount++] = here;
+            if (i >= 0 && insideHere && kept < EXACT_MAX_CORNERS) {
+                both[left + kept++] = here;
             }
-            if (insideHere && !insideNext && keptCount < EXACT_MAX_CORNERS) {
-                kept[keptCount++] = exactCut(here, next, distanceHere, distanceNext);
+            if (i >= 0 && insideHere != insideNext && kept < EXACT_MAX_CORNERS) {
+                both[left + kept++] =
+                    exactCut(insideHere ? here : next, insideHere ? next : here,
+                             insideHere ? distanceHere : distanceNext, insideHere ? distanceNext : distanceHere);
             }
-            if (!insideHere && insideNext && keptCount < EXACT_MAX_CORNERS) {
-                kept[keptCount++] = exactCut(next, here, distanceNext, distanceHere);
-            }
+            here = next;
+            distanceHere = distanceNext;
         }
-        for (int i = 0; i < keptCount; ++i) {
-            corners[i] = kept[i];
-        }
-        count = keptCount;
+        first = left;
+        count = kept;
         if (count < 3) {
             return 0;
         }
+    }
+    UNKNOWN_ROUNDS for (int i = 0; i < count; ++i) {
+        corners[i] = both[first + i];
     }
     return count;
 }

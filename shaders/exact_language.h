@@ -2,7 +2,10 @@
 // The words of the headers that are one text for GLSL and C++. Each includes this twice, before its functions and after
 // them: the second time the words are taken away again, so that nobody else meets them. ROLLED loops, which have few
 // rounds, stay loops in a shader that defines SMALL_PROGRAM, which is to compile soon rather than to run fast; in C++
-// they are unrolled, so that what they fill stays in registers.
+// they are unrolled, so that what they fill stays in registers. An array that is HANDED on from function to function,
+// HAND(name), is a global of that name in GLSL, which would copy it to each function and back: llvmpipe makes more of
+// that than of what the functions do. UNKNOWN_ROUNDS stand before a loop over such an array whose rounds a shader's
+// compiler can only guess: it would unroll it, into more than all else. Shaders need GL_EXT_control_flow_attributes.
 #ifndef EXACT
 
 #ifdef __cplusplus
@@ -11,6 +14,9 @@
 #define OUT(type) type&
 #define INOUT(type) type&
 #define ARRAY(type, name, count) type(&name)[count]
+#define HANDED(type, name, count) , type(&name)[count]
+#define HAND(name) , name
+#define UNKNOWN_ROUNDS
 #if defined(__clang__)
 #define ROLLED _Pragma("clang loop unroll_count(4)")
 #elif defined(__GNUC__)
@@ -24,6 +30,9 @@
 #define OUT(type) out type
 #define INOUT(type) inout type
 #define ARRAY(type, name, count) inout type name[count]
+#define HANDED(type, name, count)
+#define HAND(name)
+#define UNKNOWN_ROUNDS [[dont_unroll]]
 #ifdef SMALL_PROGRAM
 #define ROLLED [[dont_unroll]]
 #else
@@ -38,6 +47,9 @@
 #undef OUT
 #undef INOUT
 #undef ARRAY
+#undef HANDED
+#undef HAND
 #undef ROLLED
+#undef UNKNOWN_ROUNDS
 
 #endif

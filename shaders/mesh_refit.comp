@@ -4,6 +4,7 @@
 // that holds a NaN has it as its end, which meets all cells.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "shared.h"
 #include "voxtact/device_results.h"
 

@@ -3,6 +3,7 @@
 // volume's texels are. Work groups along y are the operations.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "shared.h"
 
 layout(local_size_x = VOXTACT_COMPUTE_GROUP) in;

@@ -2,6 +2,7 @@
 // The mesh's colour and, for what is painted, how much of it is seen through the volume; and how far it is from the near plane along the pixel's ray.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #ifdef PAINT_FRAGMENTS
 #endif
 #include "picture.glsl"

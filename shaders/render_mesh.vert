@@ -2,6 +2,7 @@
 // The numbers are those of view.vert, bit for bit: what is painted by fragment is decided from them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "picture.glsl"
 #include "exact.h"
 

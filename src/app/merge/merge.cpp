@@ -35,14 +35,14 @@ std::vector<MergeFile> filesOfRuns() {
     std::vector<MergeFile> files;
     for (const SideFileFacts& side : sideFileTable()) {
         const std::string ending = side.ending;
-        files.push_back({side.option,
-                         "a " + ending + (ending.empty() ? "" : " ") + "file for what detect " + side.option + " writes",
-                         {}});
+        files.push_back(
+            {side.option,
+             "a " + ending + (ending.empty() ? "" : " ") + "file for what detect " + side.option + " writes",
+             {}});
     }
     files.push_back({"--by-target", "a file for what plan --by-target writes", {}});
-    files.push_back({"--surface",
-                     "a .ply file for what plan --surface writes; of several targets a path with {target}",
-                     {}});
+    files.push_back(
+        {"--surface", "a .ply file for what plan --surface writes; of several targets a path with {target}", {}});
     files.push_back({"--heat-map", "the same of plan --heat-map, with the ending it was asked for", {}});
     return files;
 }

@@ -105,7 +105,7 @@ std::size_t setUpLone(const PairJob& job, const LoneTriangle& lone, ExactTriangl
     for (std::size_t i = 0; i < 3; ++i) {
         inside = inside && exactInside(corners[i], job.view.guardX, job.view.guardY);
     }
-    const int count = inside ? 3 : exactClip(corners, 3, job.view.guardX, job.view.guardY);
+    const int count = inside ? 3 : exactClip(3, corners, job.view.guardX, job.view.guardY);
     std::size_t made = 0;
     for (int i = 1; i + 1 < count; ++i) {
         made +=

@@ -112,7 +112,7 @@ ReferenceCounts referenceCounts(const ReferencePair& pair) {
         for (std::size_t k = 0; k < 3; ++k) {
             inside = inside && exactInside(corners[k], scene.guardX, scene.guardY);
         }
-        const int count = inside ? 3 : exactClip(corners, 3, scene.guardX, scene.guardY);
+        const int count = inside ? 3 : exactClip(3, corners, scene.guardX, scene.guardY);
         for (int k = 1; k + 1 < count; ++k) {
             ExactTriangle triangle;
             if (exactSetUp(corners[0], corners[k], corners[k + 1], scene.width, scene.height, triangle)) {

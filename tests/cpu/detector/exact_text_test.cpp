@@ -41,7 +41,7 @@ ExactCorner drawnCorner(std::mt19937_64& random) {
 std::vector<Bits> clipped(std::array<ExactCorner, 3> triangle) {
     ExactCorner corners[EXACT_MAX_CORNERS]{};
     std::copy(triangle.begin(), triangle.end(), corners);
-    const int count = shader::exactClip(corners, 3, 1.5F, 1.5F);
+    const int count = shader::exactClip(3, corners, 1.5F, 1.5F);
     std::vector<Bits> out;
     std::transform(corners, corners + count, std::back_inserter(out), bitsOf);
     std::sort(out.begin(), out.end());

@@ -258,7 +258,7 @@ TEST_F(DrawSizeTest, NoLaneHasMorePixelsThanItShould) {
                 const float* at = &data.positions[9 * triangle + 3 * corner];
                 corners[corner] = shader::exactVertex(transform, at[0], at[1], at[2]);
             }
-            const int count = shader::exactClip(corners, 3, guard, guard);
+            const int count = shader::exactClip(3, corners, guard, guard);
             for (int i = 1; i + 1 < count; ++i) {
                 shader::ExactTriangle piece;
                 if (shader::exactSetUp(corners[0], corners[i], corners[i + 1], static_cast<int>(side),
