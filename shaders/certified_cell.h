@@ -94,11 +94,10 @@ VoxelPoint halves[2 * CERTIFIED_MAX_CORNERS];
 VoxelPoint polygon[CERTIFIED_MAX_CORNERS];
 #endif
 
-/// Clips a polygon of `count` corners, which begins at `first` in `halves`, to one side of a plane across an axis:
-/// point
-/// * sign >= limit * sign. Returns the corners left. Where some are cut off, what is left is in the other half, and
-/// `first` says so: nothing is copied. Each corner is read once: which one is only known at run time, and devices keep
-/// such arrays in memory.
+/// Clips a polygon of `count` corners, which begins at `first` in `halves`, to one side of a plane across an axis.
+/// Returns the corners left. Where some are cut off, what is left is in the other half, and `first` says so: nothing is
+/// copied. The loop that cuts reads each corner once: which one is only known at run time, and devices keep such arrays
+/// in memory.
 EXACT int certifiedClipPlane(INOUT(int) first HANDED(VoxelPoint, halves, 2 * CERTIFIED_MAX_CORNERS), int count,
                              int axis, float limit, bool above) {
     float least = 0.0f;

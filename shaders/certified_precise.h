@@ -23,8 +23,8 @@
 namespace voxtact::shader {
 #endif
 
-// A pair is in GLSL its number among `transforms`: what a loop chooses of it is read there, while all of it would be
-// copied before an index could choose.
+// A pair is in GLSL its number among `transforms`, which it expects: what a loop chooses of a pair is read there, while
+// all of a pair that is an argument would be copied before an index could choose.
 #ifdef __cplusplus
 using PairHandle = CertifiedPair;
 #define PAIR_OF(pair) pair
@@ -421,6 +421,7 @@ EXACT bool precisePlaneMisses(PrecisePlane plane, VoxelPoint centre, float radiu
 }
 
 #undef PAIR_OF
+#undef PairHandle
 
 #include "exact_language.h"
 

@@ -49,7 +49,7 @@ shared uint queued;
 shared uint groupLow; // survivors of the work group: together they are more than 32 bits hold
 shared uint groupHigh;
 
-/// The pieces of a triangle: their number, the corners of the polygon being left in `corners`.
+/// The pieces of a triangle: their number, the corners of the polygon being left in the `corners` of exact.h.
 int piecesOf(PairTransform transform, uint triangle) {
     for (uint corner = 0; corner < 3; ++corner) {
         corners[corner] = cornerOf(constants.mesh, transform, 3 * triangle + corner);
@@ -92,9 +92,9 @@ uint countPixels(ExactTriangle piece, int first, int step) {
     return survivors;
 }
 
-/// Of a lane's own triangle the pieces that are not queued; or, with `isQueued`, of a queued piece the pixels of this
-/// lane. That piece is set up again by every lane: cheaper than keeping it. One text for both: compilers of shaders copy
-/// a function wherever it is called.
+/// Counts the small pieces of a lane's own triangle, and queues the others; or counts, with `isQueued`, those pixels of a
+/// queued piece that are this lane's. Every lane sets that piece up again: cheaper than keeping it. One text for both:
+/// compilers of shaders copy a function wherever it is called.
 uint countPieces(PairTransform transform, uint triangle, bool isQueued, uint queuedNumber) {
 #ifdef OUTPUTS
     triangleAtWork = triangle;

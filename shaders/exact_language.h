@@ -3,9 +3,10 @@
 // them: the second time the words are taken away again, so that nobody else meets them. ROLLED loops, which have few
 // rounds, stay loops in a shader that defines SMALL_PROGRAM, which is to compile soon rather than to run fast; in C++
 // they are unrolled, so that what they fill stays in registers. An array that is HANDED on from function to function,
-// HAND(name), is a global of that name in GLSL, which would copy it to each function and back: llvmpipe makes more of
-// that than of what the functions do. UNKNOWN_ROUNDS stand before a loop over such an array whose rounds a shader's
-// compiler can only guess: it would unroll it, into more than all else. Shaders need GL_EXT_control_flow_attributes.
+// HAND(name), is a global of that name in GLSL: an array that is an argument is copied to the function and back, and
+// llvmpipe makes more of the copies than of what the functions do. UNKNOWN_ROUNDS stands before a loop over an array
+// whose rounds a shader's compiler can only guess: it would unroll the loop, into more than all else. Shaders need
+// GL_EXT_control_flow_attributes.
 #ifndef EXACT
 
 #ifdef __cplusplus

@@ -30,7 +30,7 @@ struct MergeFile {
     std::filesystem::path path;
 };
 
-/// All that the commands write in chunks.
+/// All that the commands write in chunks in addition to the rows.
 std::vector<MergeFile> filesOfRuns() {
     std::vector<MergeFile> files;
     for (const SideFileFacts& side : sideFileTable()) {
