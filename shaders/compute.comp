@@ -49,21 +49,21 @@ shared uint queued;
 shared uint groupLow; // survivors of the work group: together they are more than 32 bits hold
 shared uint groupHigh;
 
-/// The pieces of a triangle: their number, the corners of the polygon being left in the `corners` of exact.h.
+/// The pieces of a triangle: their number. The corners of the polygon are left in `exactPolygon`.
 int piecesOf(PairTransform transform, uint triangle) {
     for (uint corner = 0; corner < 3; ++corner) {
-        corners[corner] = cornerOf(constants.mesh, transform, 3 * triangle + corner);
+        exactPolygon[corner] = cornerOf(constants.mesh, transform, 3 * triangle + corner);
     }
-    if (constants.rangeTest != 0 && exactBeyond(corners[0], corners[1], corners[2])) {
+    if (constants.rangeTest != 0 && exactBeyond(exactPolygon[0], exactPolygon[1], exactPolygon[2])) {
         return 0;
     }
-    if (kDominantAxis && !dominantProject(corners[0], corners[1], corners[2], constants.grid)) {
+    if (kDominantAxis && !dominantProject(exactPolygon[0], exactPolygon[1], exactPolygon[2], constants.grid)) {
         return 0;
     }
     const float guardX = constants.guardX;
     const float guardY = constants.guardY;
-    if (exactInside(corners[0], guardX, guardY) && exactInside(corners[1], guardX, guardY) &&
-        exactInside(corners[2], guardX, guardY)) {
+    if (exactInside(exactPolygon[0], guardX, guardY) && exactInside(exactPolygon[1], guardX, guardY) &&
+        exactInside(exactPolygon[2], guardX, guardY)) {
         return 1;
     }
     return max(exactClip(3, guardX, guardY) - 2, 0);
@@ -92,9 +92,9 @@ uint countPixels(ExactTriangle piece, int first, int step) {
     return survivors;
 }
 
-/// Counts the small pieces of a lane's own triangle, and queues the others; or counts, with `isQueued`, those pixels of a
-/// queued piece that are this lane's. Every lane sets that piece up again: cheaper than keeping it. One text for both:
-/// compilers of shaders copy a function wherever it is called.
+/// Counts the small pieces of a lane's own triangle, and queues the others. With `isQueued`: counts this lane's pixels
+/// of a queued piece, number `queuedNumber` of its triangle. Every lane sets that piece up again: cheaper than keeping
+/// it. One text for both: compilers of shaders copy a function wherever it is called.
 uint countPieces(PairTransform transform, uint triangle, bool isQueued, uint queuedNumber) {
 #ifdef OUTPUTS
     triangleAtWork = triangle;
@@ -112,7 +112,8 @@ uint countPieces(PairTransform transform, uint triangle, bool isQueued, uint que
     uint survivors = 0;
     for (; number < end; ++number) {
         ExactTriangle piece;
-        if (!exactSetUp(corners[0], corners[number + 1], corners[number + 2], constants.width, constants.height, piece)) {
+        if (!exactSetUp(exactPolygon[0], exactPolygon[number + 1], exactPolygon[number + 2], constants.width,
+                        constants.height, piece)) {
             continue;
         }
         const int pixels = (piece.maxX - piece.minX + 1) * (piece.maxY - piece.minY + 1);

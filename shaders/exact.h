@@ -161,16 +161,16 @@ EXACT ExactCorner exactCut(ExactCorner inside, ExactCorner outside, float distan
 }
 
 #ifndef __cplusplus
-ExactCorner corners[EXACT_MAX_CORNERS]; // as HANDED says
+ExactCorner exactPolygon[EXACT_MAX_CORNERS]; // as HANDED says
 #endif
 
 /// Clips a polygon of `count` corners by all six planes, in place; returns the number of corners that are left
 /// (Sutherland and Hodgman, "Reentrant polygon clipping", 1974). What is clipped and what is left of it are the halves
-/// of one array, as in certifiedClip().
-EXACT int exactClip(int count HANDED(ExactCorner, corners, EXACT_MAX_CORNERS), float guardX, float guardY) {
+/// of one array, as in certifiedClipPlane().
+EXACT int exactClip(int count HANDED(ExactCorner, exactPolygon, EXACT_MAX_CORNERS), float guardX, float guardY) {
     ExactCorner both[2 * EXACT_MAX_CORNERS];
     UNKNOWN_ROUNDS for (int i = 0; i < count; ++i) {
-        both[i] = corners[i];
+        both[i] = exactPolygon[i];
     }
     int first = 0;
     for (int plane = 0; plane < 6; ++plane) {
@@ -202,7 +202,7 @@ EXACT int exactClip(int count HANDED(ExactCorner, corners, EXACT_MAX_CORNERS), f
         }
     }
     UNKNOWN_ROUNDS for (int i = 0; i < count; ++i) {
-        corners[i] = both[first + i];
+        exactPolygon[i] = both[first + i];
     }
     return count;
 }
