@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -28,53 +29,43 @@ inline std::uint32_t usualSide(std::mt19937_64& random, std::uint32_t least, std
     }
 }
 
+/// Which of the sides of a volume and of a table are powers of two, as bits.
+unsigned powersOfTwo(const VolumeView& volume, std::uint32_t tableSize);
+/// Of the usual kind no side of the volume is a power of two and the table's is, as in most tests, so that much is
+/// compiled already.
+inline constexpr unsigned kUsualKind = 8;
+
+/// A type of voxels and which sides are powers of two.
+struct ImageKind {
+    ScalarType type = ScalarType::UInt8;
+    unsigned powersOfTwo = kUsualKind;
+};
+/// The kind of images that the tests of this process have next to bytes of the usual kind: not of bytes, and any of the
+/// kinds that random cases have, as often as they have it. Printed; VOXTACT_TEST_KIND, a seed, chooses it.
+ImageKind otherKind();
+
 /// Types of voxels for a test in which they come by turns: all, or where the tests are not in their long form, bytes
-/// and one other.
-inline std::vector<ScalarType> fewTypes(std::mt19937_64& random) {
-    std::vector<ScalarType> types(kVoxelTypes.begin(), kVoxelTypes.end());
-    if (!longTests()) {
-        types = {ScalarType::UInt8, types[1 + random() % 3]};
-    }
-    return types;
-}
+/// and that of otherKind().
+std::vector<ScalarType> fewTypes();
 
 /// What the images of a run are, where the tests are not in their long form.
 enum class ImageKinds {
-    Few,  ///< of bytes of the usual kind, and of the first other type that comes, of the kind that comes first
-    Most, ///< of all types of voxels; of the first type that comes, of the kind that comes first
+    Few,  ///< of bytes of the usual kind, and of otherKind()
+    Most, ///< of otherKind(), and of all other types of the usual kind
 };
 
 /// The images of a run. llvmpipe compiles a shader anew for each format and for which of the sides of the volume and of
 /// the table are powers of two: 64 kinds, of which 300 cases have nearly all, and seconds for each. So a run has few of
-/// them, with as many cases of each. Of the usual kind no side of the volume is a power of two and the table's is, as
-/// in most tests, so that much is compiled already; what has a side of 1, 2, 4 or 8 voxels is of another one. In the
-/// long form each type of voxels has the kind that comes first. Which type and kind come first is up to the seed.
+/// them, with as many cases of each, and all runs of a process the same. In the long form each type of voxels has the
+/// kind that comes first.
 class FewKindsOfImage {
   public:
     /// As many as are wanted.
     explicit FewKindsOfImage(ImageKinds kinds) : FewKindsOfImage(std::numeric_limits<std::uint64_t>::max(), kinds) {}
-    explicit FewKindsOfImage(std::uint64_t cases, ImageKinds kinds = ImageKinds::Few)
-        : kinds_(kinds), most_(kinds == ImageKinds::Most || longTests() ? 4 : 2), casesOfEach_(cases / most_) {}
+    explicit FewKindsOfImage(std::uint64_t cases, ImageKinds kinds = ImageKinds::Few);
 
     /// Whether a case with such images is to be run; it is then taken for run.
-    bool take(const VolumeView& volume, std::uint32_t tableSize) {
-        constexpr unsigned kUsual = 8;
-        const auto& size = volume.grid.size;
-        const unsigned kind = (std::has_single_bit(size[0]) ? 1U : 0U) | (std::has_single_bit(size[1]) ? 2U : 0U) |
-                              (std::has_single_bit(size[2]) ? 4U : 0U) | (std::has_single_bit(tableSize) ? kUsual : 0U);
-        if (!types_.contains(volume.type) && !isWanted(volume.type)) {
-            return false;
-        }
-        const bool any =
-            longTests() || (kinds_ == ImageKinds::Most ? types_.empty() : volume.type != ScalarType::UInt8);
-        Type& type = types_.try_emplace(volume.type, Type{any ? kind : kUsual, 0}).first->second;
-        if (type.kind != kind || type.cases == casesOfEach_) {
-            return false;
-        }
-        ++type.cases;
-        ++taken_;
-        return true;
-    }
+    bool take(const VolumeView& volume, std::uint32_t tableSize);
     /// The next of the scenes that `make()` makes that is to be run.
     template <class Make> auto next(Make make) {
         for (;;) {
@@ -85,24 +76,18 @@ class FewKindsOfImage {
         }
     }
     /// Whether there were as many as there are to be.
-    [[nodiscard]] bool isDone() const noexcept { return taken_ == most_ * casesOfEach_; }
+    [[nodiscard]] bool isDone() const noexcept { return taken_ == types_.size() * casesOfEach_; }
 
   private:
     struct Type {
-        unsigned kind;
-        std::uint64_t cases;
+        std::optional<unsigned> powersOfTwo; ///< the first that comes, where there is none
+        std::uint64_t cases = 0;
+        std::uint64_t others = 0; ///< that were not taken before the first that was
     };
-    /// Of a type that has not come yet.
-    [[nodiscard]] bool isWanted(ScalarType type) const {
-        const std::uint64_t others = types_.size() - types_.count(ScalarType::UInt8);
-        return type == ScalarType::UInt8 || others + 1 < most_;
-    }
 
-    ImageKinds kinds_;
-    std::uint64_t most_; ///< types
+    std::map<ScalarType, Type> types_;
     std::uint64_t casesOfEach_;
     std::uint64_t taken_ = 0;
-    std::map<ScalarType, Type> types_;
 };
 
 /// Looks at so many of the cases that `make(number)` makes, which have a `scene`, until something fails. Returns how

@@ -102,3 +102,19 @@ def test_vtk(tmp_path):
     source.Update()
     mesh = vx.read_mesh(source.GetOutput())
     assert len(mesh.faces) == 12 and "cut into triangles" in mesh.notes[0]
+
+
+def test_deleted_cells_of_vtk():
+    pytest.importorskip("vtkmodules.vtkFiltersSources")
+    from vtkmodules.vtkFiltersSources import vtkSphereSource
+
+    source = vtkSphereSource()
+    source.Update()
+    ball = source.GetOutput()
+    whole = vx.read_mesh(ball)
+    ball.BuildCells()
+    ball.DeleteCell(3)
+    mesh = vx.read_mesh(ball)
+    np.testing.assert_array_equal(mesh.faces, np.delete(whole.faces, 3, axis=0))
+    assert "1 deleted cells left out" in mesh.notes
+    assert ball.GetNumberOfCells() == len(whole.faces)  # theirs is as it was

@@ -159,18 +159,15 @@ Outcome makePoses(const MakePosesOptions& options) {
     VOXTACT_TRY(volume);
     const Result<MeshData> mesh = loadMesh(options.meshes.sources.front(), options.meshes);
     VOXTACT_TRY(mesh);
-    const std::vector<Mat4> poses = randomPoses(volume->grid, mesh->view(), options.number, options.seed);
     const auto write = [&](std::ostream& out) -> Result<void> {
         out << "# voxtact make poses: " << options.number << " poses, seed " << options.seed << ", mesh "
             << oneLine(options.meshes.sources.front()) << ", volume " << oneLine(options.volumes.front()) << '\n'
             << "# world_from_object, 16 numbers per line, row by row\n";
-        for (const Mat4& pose : poses) {
-            if (interrupted()) {
-                return Error{ErrorCode::Cancelled, 0, "interrupted"};
-            }
+        forRandomPoses(volume->grid, mesh->view(), options.number, options.seed, [&](const Mat4& pose) {
             writePose(out, pose);
-        }
-        return {};
+            return out.good() && !interrupted();
+        });
+        return interrupted() ? Error{ErrorCode::Cancelled, 0, "interrupted"} : Result<void>();
     };
     return written([&] { return deliver(options.path, write); });
 }

@@ -119,14 +119,21 @@ Vec3 directionTo(const Vec3& from, const Vec3& to) {
 } // namespace
 
 std::vector<Mat4> randomPoses(const Grid& grid, const MeshView& mesh, std::uint32_t count, std::uint64_t seed) {
-    const Mat4 world_from_texture = worldFromTexture(grid);
-    Random random(seed);
     std::vector<Mat4> poses;
     poses.reserve(count);
-    for (std::uint32_t i = 0; i < count; ++i) {
-        poses.push_back(randomPose(world_from_texture, mesh, kMargin, random));
-    }
+    forRandomPoses(grid, mesh, count, seed, [&](const Mat4& pose) {
+        poses.push_back(pose);
+        return true;
+    });
     return poses;
+}
+
+void forRandomPoses(const Grid& grid, const MeshView& mesh, std::uint64_t count, std::uint64_t seed,
+                    const std::function<bool(const Mat4&)>& take) {
+    const Mat4 world_from_texture = worldFromTexture(grid);
+    Random random(seed);
+    for (std::uint64_t i = 0; i < count && take(randomPose(world_from_texture, mesh, kMargin, random)); ++i) {
+    }
 }
 
 std::vector<Mat4> asFloats(std::vector<Mat4> poses) {

@@ -17,6 +17,9 @@ inline constexpr std::uint32_t kMostPoses = 10'000'000;
 /// arithmetic. The mesh must have a vertex and the grid must be one that checkGrid() accepts.
 [[nodiscard]] std::vector<Mat4> randomPoses(const Grid& grid, const MeshView& mesh, std::uint32_t count,
                                             std::uint64_t seed);
+/// The same poses, one after the other: none is held. Ends where `take` returns false.
+void forRandomPoses(const Grid& grid, const MeshView& mesh, std::uint64_t count, std::uint64_t seed,
+                    const std::function<bool(const Mat4&)>& take);
 
 /// The same poses with their elements rounded to floats, so that an engine whose poses are on the device is asked what
 /// the others are.

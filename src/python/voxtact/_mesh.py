@@ -128,6 +128,12 @@ def _of_vtk_mesh(mesh: Any, space: Space, scale: float) -> Mesh:
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
     notes: list[str] = []
+    if not mesh.NeedToBuildCells():  # otherwise no cell can have been deleted
+        whole, mesh = mesh, mesh.NewInstance()
+        mesh.ShallowCopy(whole)
+        mesh.RemoveDeletedCells()
+        if mesh.GetNumberOfCells() != whole.GetNumberOfCells():
+            notes.append(f"{whole.GetNumberOfCells() - mesh.GetNumberOfCells()} deleted cells left out")
     if mesh.GetNumberOfStrips() or (np.diff(vtk_to_numpy(mesh.GetPolys().GetOffsetsArray())) != 3).any():
         from vtkmodules.vtkFiltersCore import vtkTriangleFilter
 

@@ -69,7 +69,7 @@ class ClearanceTest : public CertifiedTest {
 TEST_F(ClearanceTest, OfKnownDistances) {
     std::mt19937_64 random(testSeed());
     BlockingDetector device = detector(howNear());
-    const std::vector<ScalarType> types = fewTypes(random);
+    const std::vector<ScalarType> types = fewTypes();
     for (int round = 0; round < 48 && !HasFailure(); ++round) {
         KnownPlane known = makeKnownPlane(random, round, types);
         SCOPED_TRACE("round " + std::to_string(round));

@@ -85,7 +85,7 @@ TEST_F(MarginTest, IsTheHostsTextBitForBitOnRandomCases) {
 TEST_F(MarginTest, TellsKnownDistancesApart) {
     std::mt19937_64 random(testSeed());
     BlockingDetector device = detector(within(kMargin));
-    const std::vector<ScalarType> types = fewTypes(random);
+    const std::vector<ScalarType> types = fewTypes();
     for (int round = 0; round < 24 && !HasFailure(); ++round) {
         KnownPlane known = makeKnownPlane(random, round, types);
         SCOPED_TRACE("round " + std::to_string(round));
