@@ -10,6 +10,7 @@ if(NOT TARGET Vulkan::Headers)
 endif()
 find_package(glm CONFIG REQUIRED)
 find_program(VOXTACT_GLSLANG glslangValidator REQUIRED)
+find_program(VOXTACT_SPIRV_OPT spirv-opt REQUIRED)
 find_program(VOXTACT_SPIRV_VAL spirv-val REQUIRED)
 
 # voxtact::cpu
