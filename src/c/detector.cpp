@@ -33,11 +33,10 @@ std::optional<PoseTolerance> toleranceOf(const vxt_detector_desc& desc) {
 }
 
 std::optional<MotionSearch> motionOf(const vxt_detector_desc& desc) {
-    const auto interpolation = number<Interpolation>(desc.motion_interpolation);
     if (desc.motion_resolution == 0) {
         return std::nullopt;
     }
-    return MotionSearch{desc.motion_resolution, interpolation};
+    return MotionSearch{desc.motion_resolution, number<Interpolation>(desc.motion_interpolation)};
 }
 
 DetectorDesc toDesc(const vxt_detector_desc* given) {

@@ -257,3 +257,19 @@ def test_bits_of_vtk():
     image.AllocateScalars(1, 1)  # VTK_BIT
     with pytest.raises(vx.InvalidArgumentError, match="bits"):
         vx.read_volume(image)
+
+
+def test_vtk_with_scalars_of_another_size():
+    vtk = pytest.importorskip("vtkmodules.vtkCommonDataModel")
+    image = vtk.vtkImageData()
+    image.SetDimensions(3, 4, 5)
+    image.AllocateScalars(3, 1)  # VTK_UNSIGNED_CHAR
+    image.GetPointData().GetScalars().SetNumberOfTuples(7)
+    with pytest.raises(vx.InvalidArgumentError, match="7 scalars; 3 x 4 x 5"):
+        vx.read_volume(image)
+
+
+@pytest.mark.parametrize("kind", ["?", "u1", "i2", "i4", "u4", "i8", "f2", "f4", "f8"])
+def test_empty(kind):
+    with pytest.raises(vx.InvalidArgumentError, match="the image is empty"):
+        vx.read_volume(np.zeros((0, 3, 3), kind), affine=np.eye(4))

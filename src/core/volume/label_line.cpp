@@ -2,11 +2,13 @@
 #include "core/base/guard.h"
 #include "core/base/refuse.h"
 #include "core/base/try.h"
-#include "core/volume/label_lookup.h"
 #include "voxtact/plan.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
 
 namespace voxtact {
 
@@ -24,30 +26,65 @@ const char* toString(Safety safety) noexcept {
 
 namespace {
 
-std::vector<std::int32_t> labelsBetween(const LabelData& labels, const Mat4& texture_from_world, const Vec3& from,
-                                        const Vec3& to) {
+/// In voxels: 0 to `size` along each axis is the grid.
+struct Line {
+    Vec3 from;
+    Vec3 to;
+
+    [[nodiscard]] Vec3 at(double part) const {
+        Vec3 out{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            out[axis] = std::lerp(from[axis], to[axis], part);
+        }
+        return out;
+    }
+};
+
+/// What of the line is in the grid; none where nothing is. An end that is far away would else be all that a double knows
+/// of the places between.
+std::optional<Line> inGrid(Line line, const Vec3& size) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (const auto& [face, inward] : {std::pair{0.0, 1}, std::pair{size[axis], -1}}) {
+            const double from = inward * (line.from[axis] - face);
+            const double to = inward * (line.to[axis] - face);
+            if (from < 0 && to < 0) {
+                return std::nullopt;
+            }
+            if (from < 0 || to < 0) {
+                Vec3& outside = from < 0 ? line.from : line.to;
+                outside = line.at(from / (from - to));
+                outside[axis] = face;
+            }
+        }
+    }
+    return line;
+}
+
+std::vector<std::int32_t> labelsBetween(const LabelData& labels, const Line& whole, const Vec3& size) {
     std::vector<std::int32_t> out;
-    const Vec3 first = transformPoint(texture_from_world, from);
-    const Vec3 last = transformPoint(texture_from_world, to);
+    const std::optional<Line> line = inGrid(whole, size);
+    if (!line) {
+        return out;
+    }
     // Where the line goes from one layer of voxels to another, as its part from 0 to 1.
     std::vector<double> steps{0, 1};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double size = labels.grid.size[axis];
-        const double begin = first[axis] * size;
-        const double way = last[axis] * size - begin;
-        const double lo = std::max(std::ceil(std::min(begin, begin + way)), 0.0);
-        const double hi = std::min(std::max(begin, begin + way), size);
-        for (double face = lo; face <= hi && way != 0; ++face) {
+        const double begin = line->from[axis];
+        const double way = line->to[axis] - begin;
+        for (double face = std::ceil(std::min(begin, begin + way)); face <= std::max(begin, begin + way) && way != 0;
+             ++face) {
             steps.push_back(std::clamp((face - begin) / way, 0.0, 1.0));
         }
     }
     std::sort(steps.begin(), steps.end());
-    const LabelLookup lookup(labels);
     for (std::size_t i = 0; i + 1 < steps.size(); ++i) {
-        const double middle = 0.5 * (steps[i] + steps[i + 1]);
-        const Vec3 at{from[0] + middle * (to[0] - from[0]), from[1] + middle * (to[1] - from[1]),
-                      from[2] + middle * (to[2] - from[2])};
-        const std::int32_t label = labels.values[lookup.at(at)];
+        const Vec3 middle = line->at(0.5 * (steps[i] + steps[i + 1]));
+        std::size_t voxel = 0;
+        for (std::size_t axis = 3; axis-- > 0;) {
+            const double place = std::clamp(std::floor(middle[axis]), 0.0, size[axis] - 1);
+            voxel = voxel * labels.grid.size[axis] + static_cast<std::size_t>(place);
+        }
+        const std::int32_t label = labels.values[labels.indices[voxel]];
         if (steps[i + 1] > steps[i] && label != 0 && std::find(out.begin(), out.end(), label) == out.end()) {
             out.push_back(label);
         }
@@ -67,7 +104,21 @@ Result<std::vector<std::int32_t>> labelsAlong(const LabelData& labels, const Vec
         }
         const Result<Mat4> texture = textureFromWorld(labels.grid);
         VOXTACT_TRY(texture);
-        return labelsBetween(labels, *texture, from, to);
+        Line line{transformPoint(*texture, from), transformPoint(*texture, to)};
+        Vec3 size{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            size[axis] = labels.grid.size[axis];
+            line.from[axis] *= size[axis];
+            line.to[axis] *= size[axis];
+        }
+        // Half of the largest number: the way from one to the other is one, too.
+        constexpr double kMost = std::numeric_limits<double>::max() / 2;
+        for (const Vec3& end : {line.from, line.to}) {
+            if (!std::ranges::all_of(end, [](double x) { return std::abs(x) <= kMost; })) {
+                return refuse("an end of the line is too far away");
+            }
+        }
+        return labelsBetween(labels, line, size);
     });
 }
 

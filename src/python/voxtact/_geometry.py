@@ -15,7 +15,8 @@ def overlapping_pairs(boxes: npt.ArrayLike, others: Optional[npt.ArrayLike] = No
     """The broad phase: which boxes share a point, touching included.
 
     boxes, others
-        (N,2,3): the least and the greatest corner of each, as `Mesh.boxes_at` has them
+        (N,2,3): the least and the greatest corner of each, as `Mesh.boxes_at` has them; one with a NaN, or whose
+        least corner is greater than the other, shares nothing
 
     (M,2), sorted: numbers of `boxes`, the first less than the second; or with `others` a number of each.
 

@@ -107,6 +107,35 @@ def _mesh_of_arrays(vertices: Any, faces: Any, space: Space, scale: float, name:
                                    [encoded_text(note, "a note") for note in said]))
 
 
+def _of_quads(corners: npt.NDArray[Any], points: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """Two triangles of each, as the readers of files cut: along the diagonal that is inside, in the largest shadow."""
+    sane = corners.dtype.kind in "iu" and points.dtype.kind in "fiu" and points.shape[1:] == (3,)
+    if not sane or not corners.size or corners.min() < 0 or corners.max() >= len(points):
+        return corners[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)  # refused with all the others
+    seen = points[corners].astype(np.float64)
+    seen = seen - seen[:, :1]
+    with np.errstate(invalid="ignore", over="ignore"):
+        normal = np.abs(np.cross(seen[:, 2], seen[:, 3] - seen[:, 1]))
+        axis = normal.argmax(axis=1)
+        rows = np.arange(len(corners))[:, None]
+        flat = np.stack([seen[rows, [0, 1, 2, 3], (axis[:, None] + k) % 3] for k in (1, 2)], axis=2)
+
+        def turn(a: int, b: int, c: int) -> npt.NDArray[Any]:
+            u, v = flat[:, b] - flat[:, a], flat[:, c] - flat[:, a]
+            return np.asarray(np.sign(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]))
+
+        first, second = turn(0, 1, 2) * turn(0, 2, 3), turn(1, 2, 3) * turn(1, 3, 0)
+        # What encloses nothing is a line, or its halves turn against each other.
+        least = 1e-12 * np.abs(seen).max(axis=(1, 2)) ** 2
+        sides = np.stack([np.cross(seen[:, a], seen[:, b]) for a, b in ((1, 2), (1, 3), (2, 3))], axis=1)
+        empty = (normal.max(axis=1) <= least) & (np.abs(sides).max(axis=(1, 2)) > least)
+    other = first < 0
+    crossed = (other & (second < 0)) | empty
+    if crossed.any():
+        raise InvalidArgumentError(f"quad {int(np.argmax(crossed))} crosses itself")
+    return np.where(other[:, None], corners[:, [1, 2, 3, 1, 3, 0]], corners[:, [0, 1, 2, 0, 2, 3]]).reshape(-1, 3)
+
+
 def _of_meshio(mesh: Any, space: Space, scale: float) -> Mesh:
     parts: list[npt.NDArray[Any]] = []
     notes: list[str] = []
@@ -115,7 +144,7 @@ def _of_meshio(mesh: Any, space: Space, scale: float) -> Mesh:
         if block.type == "triangle":
             parts.append(cells)
         elif block.type == "quad":
-            parts.append(cells[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3))
+            parts.append(_of_quads(cells, np.asarray(mesh.points)))
             notes.append(f"{len(cells)} quads cut into triangles")
         else:
             notes.append(f"{len(cells)} cells of type {block.type} left out")
@@ -144,6 +173,8 @@ def _of_vtk_mesh(mesh: Any, space: Space, scale: float) -> Mesh:
         cut.Update()
         mesh = cut.GetOutput()
         notes.append("polygons and strips cut into triangles by VTK")
+    if mesh.GetPoints() is None:
+        raise InvalidArgumentError("the vtkPolyData has no points")
     if not mesh.GetNumberOfPolys():
         raise InvalidArgumentError("the vtkPolyData has no polygons")
     if mesh.GetNumberOfVerts() or mesh.GetNumberOfLines():

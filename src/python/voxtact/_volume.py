@@ -173,8 +173,10 @@ def _stored(array: npt.NDArray[Any], notes: list[str]) -> npt.NDArray[Any]:
         return array.astype(np.float32)
     if kind not in "iu":
         raise InvalidArgumentError(f"voxels of {array.dtype} cannot be used: whole numbers and floats can")
-    if (kind, size) in (("u", 1), ("i", 2), ("u", 2)) or array.size == 0:
+    if (kind, size) in (("u", 1), ("i", 2), ("u", 2)):
         return array
+    if array.size == 0:
+        return array.astype(np.int16)  # refused with all that are empty
     lo, hi = int(array.min()), int(array.max())
     for target in (np.dtype(np.int16), np.dtype(np.uint16)):
         limits = np.iinfo(target)
@@ -319,7 +321,10 @@ def _of_vtk_image(image: Any, space: Space) -> Volume:
     affine = np.eye(4)
     affine[:3, :3] = columns * np.array(image.GetSpacing())
     affine[:3, 3] = np.array(image.GetOrigin()) + affine[:3, :3] @ first
-    return _volume_of_array(vtk_to_numpy(scalars).reshape(z, y, x), affine, space, "zyx", "vtkImageData")
+    voxels = vtk_to_numpy(scalars)
+    if voxels.size != x * y * z:
+        raise InvalidArgumentError(f"the vtkImageData has {voxels.size} scalars; {x} x {y} x {z} are needed")
+    return _volume_of_array(voxels.reshape(z, y, x), affine, space, "zyx", "vtkImageData")
 
 
 def _refuse_what_is_no_array(source: Any) -> None:

@@ -387,6 +387,12 @@ TEST(Plan, TellsWhatALineCrosses) {
     EXPECT_EQ(*labelsAlong(labels, {20, 4, 4}, {-3, 4, 4}), (std::vector<std::int32_t>{5, 7}));
     EXPECT_EQ(*labelsAlong(labels, {7, 0, 4}, {7, 9.4, 4}), (std::vector<std::int32_t>{5, 2}));
     EXPECT_TRUE(labelsAlong(labels, {20, 20, 20}, {30, 20, 20})->empty());
+    for (double far = 100; far < 1e300; far *= 1e7) {
+        EXPECT_EQ(*labelsAlong(labels, {-far, 4, 4}, {far, 4, 4}), (std::vector<std::int32_t>{7, 5})) << far;
+        EXPECT_EQ(*labelsAlong(labels, {7, far, 4}, {7, -far, 4}), (std::vector<std::int32_t>{2, 5})) << far;
+        EXPECT_TRUE(labelsAlong(labels, {7, far, 20}, {7, -far, 20})->empty()) << far;
+    }
+    EXPECT_EQ(labelsAlong(labels, {-1.7e308, 4, 4}, {1.7e308, 4, 4}).error().text, "an end of the line is too far away");
     EXPECT_EQ(*labelsAlong(labels, {1, 1, 1}, {1, 1, 1}), (std::vector<std::int32_t>{7}));
     EXPECT_EQ(labelsAlong(labels, {0, std::nan(""), 0}, {1, 1, 1}).error().text, "an end of the line is not finite");
     EXPECT_EQ(labelsAlong(labels, {0, 0, 0}, {1, HUGE_VAL, 1}).error().code, ErrorCode::InvalidArgument);

@@ -114,10 +114,6 @@ TEST_F(CNearTest, LooksAlongTheWay) {
     desc.motion_resolution = -1;
     EXPECT_EQ(vxt_detector_create(context_.get(), &desc, &none), VXT_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(none, nullptr);
-    desc.motion_resolution = 0; // whether ways are asked for or not
-    desc.motion_interpolation = static_cast<vxt_interpolation>(17);
-    EXPECT_EQ(vxt_detector_create(context_.get(), &desc, &none), VXT_ERROR_INVALID_ARGUMENT);
-    EXPECT_EQ(none, nullptr);
     vxt_results_desc room = vxt_results_desc_init();
     room.max_pairs = 3;
     for (const std::uint32_t some : {0U, 1U}) {
