@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # cmake -DSPIRV_OPT=spirv-opt -DSPV=in_out.spv -P optimize_spirv.cmake
-# One function, values instead of variables, nothing that has no use: a driver makes a pipeline of that in a third to a
+# Of a compute shader. One function, values instead of variables, nothing that has no use: a driver makes a pipeline of that in a third to a
 # half of the time. No arithmetic is folded, so each operation rounds as it is written. Without merge-return, which
 # costs 2 to 5 % of the run time on llvmpipe, functions with a return in the middle stay; spirv-opt warns of each.
 set(passes
