@@ -40,8 +40,8 @@ struct Line {
     }
 };
 
-/// What of the line is in the grid; none where nothing is. An end that is far away would else be all that a double knows
-/// of the places between.
+/// What of the line is in the grid; none where nothing is. An end that is far away would else be all that a double
+/// knows of the places between.
 std::optional<Line> inGrid(Line line, const Vec3& size) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         for (const auto& [face, inward] : {std::pair{0.0, 1}, std::pair{size[axis], -1}}) {

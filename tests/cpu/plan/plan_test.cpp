@@ -392,7 +392,8 @@ TEST(Plan, TellsWhatALineCrosses) {
         EXPECT_EQ(*labelsAlong(labels, {7, far, 4}, {7, -far, 4}), (std::vector<std::int32_t>{2, 5})) << far;
         EXPECT_TRUE(labelsAlong(labels, {7, far, 20}, {7, -far, 20})->empty()) << far;
     }
-    EXPECT_EQ(labelsAlong(labels, {-1.7e308, 4, 4}, {1.7e308, 4, 4}).error().text, "an end of the line is too far away");
+    EXPECT_EQ(labelsAlong(labels, {-1.7e308, 4, 4}, {1.7e308, 4, 4}).error().text,
+              "an end of the line is too far away");
     EXPECT_EQ(*labelsAlong(labels, {1, 1, 1}, {1, 1, 1}), (std::vector<std::int32_t>{7}));
     EXPECT_EQ(labelsAlong(labels, {0, std::nan(""), 0}, {1, 1, 1}).error().text, "an end of the line is not finite");
     EXPECT_EQ(labelsAlong(labels, {0, 0, 0}, {1, HUGE_VAL, 1}).error().code, ErrorCode::InvalidArgument);
