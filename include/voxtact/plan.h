@@ -87,10 +87,10 @@ struct PlanAnswer {
 };
 
 /// The label values that a straight line crosses, in order from `from` to `to`, each once; 0 is left out. By the voxels
-/// that the line is in (labelAt()); those that it only grazes may be missing, and where a line is that is at an angle
-/// to the axes and ends far away is known to 2^-52 of how far. Refuses ends that are not finite, or further away than
-/// half of the largest double, in voxels, and a grid that checkGrid() refuses. Expects what makeLabels() returns
-/// otherwise.
+/// that the line is in (labelAt()); those that it only grazes may be missing. Where both ends are far away, a line at
+/// an angle to the axes is known only as precisely as doubles hold its ends. Refuses ends that are not finite, or
+/// further away than half of the largest double, in voxels, and a grid that checkGrid() refuses. Expects what
+/// makeLabels() returns otherwise.
 [[nodiscard]] VOXTACT_API Result<std::vector<std::int32_t>> labelsAlong(const LabelData& labels, const Vec3& from,
                                                                         const Vec3& to);
 

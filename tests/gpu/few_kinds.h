@@ -40,8 +40,8 @@ struct ImageKind {
     ScalarType type = ScalarType::UInt8;
     unsigned powersOfTwo = kUsualKind;
 };
-/// The kind of images that the tests of this process have next to bytes of the usual kind: not of bytes, and any of the
-/// kinds that random cases have, as often as they have it. Printed; VOXTACT_TEST_KIND, a seed, chooses it.
+/// The kind of images that the tests of this process use besides bytes of the usual kind: not of bytes, and any of the
+/// kinds that makeClearanceCase() makes, as often as it does. Printed; VOXTACT_TEST_KIND, a seed, chooses it.
 ImageKind otherKind();
 
 /// Types of voxels for a test in which they come by turns: all, or where the tests are not in their long form, bytes
@@ -51,20 +51,23 @@ std::vector<ScalarType> fewTypes();
 /// What the images of a run are, where the tests are not in their long form.
 enum class ImageKinds {
     Few,  ///< of bytes of the usual kind, and of otherKind()
-    Most, ///< of otherKind(), and of all other types of the usual kind
+    Most, ///< of all types of voxels: the type that comes first of the kind that comes first, the others of the usual
+          ///< one
 };
 
 /// The images of a run. llvmpipe compiles a shader anew for each format and for which of the sides of the volume and of
 /// the table are powers of two: 64 kinds, of which 300 cases have nearly all, and seconds for each. So a run has few of
-/// them, with as many cases of each, and all runs of a process the same. In the long form each type of voxels has the
-/// kind that comes first.
+/// them, with as many cases of each where a number of cases is asked for, and those with `Few` have the same in all of
+/// a process. In the long form each type of voxels has the kind that comes first.
 class FewKindsOfImage {
   public:
     /// As many as are wanted.
     explicit FewKindsOfImage(ImageKinds kinds) : FewKindsOfImage(std::numeric_limits<std::uint64_t>::max(), kinds) {}
     explicit FewKindsOfImage(std::uint64_t cases, ImageKinds kinds = ImageKinds::Few);
 
-    /// Whether a case with such images is to be run; it is then taken for run.
+    /// Whether a case with such images is to be run; it is then taken for run. After 300 images of a type, none of
+    /// which is of the kind that its images are to have, they have the kind of the next: what makes the cases may never
+    /// make that kind.
     bool take(const VolumeView& volume, std::uint32_t tableSize);
     /// The next of the scenes that `make()` makes that is to be run.
     template <class Make> auto next(Make make) {
@@ -82,9 +85,10 @@ class FewKindsOfImage {
     struct Type {
         std::optional<unsigned> powersOfTwo; ///< the first that comes, where there is none
         std::uint64_t cases = 0;
-        std::uint64_t others = 0; ///< that were not taken before the first that was
+        std::uint64_t tries = 0; ///< until the first that was taken
     };
 
+    bool firstIsOfAnyKind_;
     std::map<ScalarType, Type> types_;
     std::uint64_t casesOfEach_;
     std::uint64_t taken_ = 0;

@@ -30,18 +30,18 @@ namespace {
 struct Line {
     Vec3 from;
     Vec3 to;
-
-    [[nodiscard]] Vec3 at(double part) const {
-        Vec3 out{};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            out[axis] = std::lerp(from[axis], to[axis], part);
-        }
-        return out;
-    }
 };
 
-/// What of the line is in the grid; none where nothing is. An end that is far away would else be all that a double
-/// knows of the places between.
+Vec3 between(const Vec3& from, const Vec3& to, double part) {
+    Vec3 out{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        out[axis] = std::lerp(from[axis], to[axis], part);
+    }
+    return out;
+}
+
+/// What of the line is in the grid; none where nothing is. Places between ends that are far away would be rounded to
+/// more than a voxel. Each part is counted from the end inside, so that it is exact however far the other one is.
 std::optional<Line> inGrid(Line line, const Vec3& size) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         for (const auto& [face, inward] : {std::pair{0.0, 1}, std::pair{size[axis], -1}}) {
@@ -50,10 +50,12 @@ std::optional<Line> inGrid(Line line, const Vec3& size) {
             if (from < 0 && to < 0) {
                 return std::nullopt;
             }
-            if (from < 0 || to < 0) {
-                Vec3& outside = from < 0 ? line.from : line.to;
-                outside = line.at(from / (from - to));
-                outside[axis] = face;
+            if (from < 0) {
+                line.from = between(line.to, line.from, to / (to - from));
+                line.from[axis] = face;
+            } else if (to < 0) {
+                line.to = between(line.from, line.to, from / (from - to));
+                line.to[axis] = face;
             }
         }
     }
@@ -78,7 +80,7 @@ std::vector<std::int32_t> labelsBetween(const LabelData& labels, const Line& who
     }
     std::sort(steps.begin(), steps.end());
     for (std::size_t i = 0; i + 1 < steps.size(); ++i) {
-        const Vec3 middle = line->at(0.5 * (steps[i] + steps[i + 1]));
+        const Vec3 middle = between(line->from, line->to, 0.5 * (steps[i] + steps[i + 1]));
         std::size_t voxel = 0;
         for (std::size_t axis = 3; axis-- > 0;) {
             const double place = std::clamp(std::floor(middle[axis]), 0.0, size[axis] - 1);

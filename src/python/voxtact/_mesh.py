@@ -108,13 +108,14 @@ def _mesh_of_arrays(vertices: Any, faces: Any, space: Space, scale: float, name:
 
 
 def _of_quads(corners: npt.NDArray[Any], points: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    """Two triangles of each, as the readers of files cut: along the diagonal that is inside, in the largest shadow."""
+    """Two triangles of each, cut along the diagonal that is inside, in the largest shadow along an axis."""
     sane = corners.dtype.kind in "iu" and points.dtype.kind in "fiu" and points.shape[1:] == (3,)
     if not sane or not corners.size or corners.min() < 0 or corners.max() >= len(points):
         return corners[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)  # refused with all the others
-    seen = points[corners].astype(np.float64)
-    seen = seen - seen[:, :1]
     with np.errstate(invalid="ignore", over="ignore"):
+        seen = points[corners].astype(np.float64)
+        seen -= seen[:, :1]
+        seen = np.ldexp(seen, -np.frexp(np.abs(seen).max(axis=(1, 2)))[1][:, None, None])
         normal = np.abs(np.cross(seen[:, 2], seen[:, 3] - seen[:, 1]))
         axis = normal.argmax(axis=1)
         rows = np.arange(len(corners))[:, None]
@@ -126,13 +127,13 @@ def _of_quads(corners: npt.NDArray[Any], points: npt.NDArray[Any]) -> npt.NDArra
 
         first, second = turn(0, 1, 2) * turn(0, 2, 3), turn(1, 2, 3) * turn(1, 3, 0)
         # What encloses nothing is a line, or its halves turn against each other.
-        least = 1e-12 * np.abs(seen).max(axis=(1, 2)) ** 2
         sides = np.stack([np.cross(seen[:, a], seen[:, b]) for a, b in ((1, 2), (1, 3), (2, 3))], axis=1)
-        empty = (normal.max(axis=1) <= least) & (np.abs(sides).max(axis=(1, 2)) > least)
+        empty = (normal.max(axis=1) <= 1e-12) & (np.abs(sides).max(axis=(1, 2)) > 1e-12)
     other = first < 0
     crossed = (other & (second < 0)) | empty
     if crossed.any():
-        raise InvalidArgumentError(f"quad {int(np.argmax(crossed))} crosses itself")
+        raise InvalidArgumentError(f"the quad of the vertices {corners[np.argmax(crossed)].tolist()} crosses itself or "
+                                   "is folded")
     return np.where(other[:, None], corners[:, [1, 2, 3, 1, 3, 0]], corners[:, [0, 1, 2, 0, 2, 3]]).reshape(-1, 3)
 
 
@@ -157,12 +158,14 @@ def _of_vtk_mesh(mesh: Any, space: Space, scale: float) -> Mesh:
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
     notes: list[str] = []
+    if mesh.GetPoints() is None:  # VTK's own filters crash
+        raise InvalidArgumentError("the vtkPolyData has no points")
     if not mesh.NeedToBuildCells():  # otherwise no cell can have been deleted
         whole, mesh = mesh, mesh.NewInstance()
         mesh.ShallowCopy(whole)
         mesh.RemoveDeletedCells()
         if mesh.GetNumberOfCells() != whole.GetNumberOfCells():
-            notes.append(f"{whole.GetNumberOfCells() - mesh.GetNumberOfCells()} deleted cells left out")
+            notes.append(f"deleted cells left out: {whole.GetNumberOfCells() - mesh.GetNumberOfCells()}")
     if mesh.GetNumberOfStrips() or (np.diff(vtk_to_numpy(mesh.GetPolys().GetOffsetsArray())) != 3).any():
         from vtkmodules.vtkFiltersCore import vtkTriangleFilter
 
@@ -173,8 +176,6 @@ def _of_vtk_mesh(mesh: Any, space: Space, scale: float) -> Mesh:
         cut.Update()
         mesh = cut.GetOutput()
         notes.append("polygons and strips cut into triangles by VTK")
-    if mesh.GetPoints() is None:
-        raise InvalidArgumentError("the vtkPolyData has no points")
     if not mesh.GetNumberOfPolys():
         raise InvalidArgumentError("the vtkPolyData has no polygons")
     if mesh.GetNumberOfVerts() or mesh.GetNumberOfLines():

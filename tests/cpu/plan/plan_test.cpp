@@ -391,6 +391,10 @@ TEST(Plan, TellsWhatALineCrosses) {
         EXPECT_EQ(*labelsAlong(labels, {-far, 4, 4}, {far, 4, 4}), (std::vector<std::int32_t>{7, 5})) << far;
         EXPECT_EQ(*labelsAlong(labels, {7, far, 4}, {7, -far, 4}), (std::vector<std::int32_t>{2, 5})) << far;
         EXPECT_TRUE(labelsAlong(labels, {7, far, 20}, {7, -far, 20})->empty()) << far;
+        // At an angle, to an end that is inside.
+        const Vec3 away{-far, 4 - 0.5 * far, 4};
+        EXPECT_EQ(*labelsAlong(labels, {8.9, 9.4, 4}, away), (std::vector<std::int32_t>{2, 5, 7})) << far;
+        EXPECT_EQ(*labelsAlong(labels, away, {8.9, 9.4, 4}), (std::vector<std::int32_t>{7, 5, 2})) << far;
     }
     EXPECT_EQ(labelsAlong(labels, {-1.7e308, 4, 4}, {1.7e308, 4, 4}).error().text,
               "an end of the line is too far away");
