@@ -108,7 +108,8 @@ def _mesh_of_arrays(vertices: Any, faces: Any, space: Space, scale: float, name:
 
 
 def _of_quads(corners: npt.NDArray[Any], points: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    """Two triangles of each, cut along the diagonal that is inside, in the largest shadow along an axis."""
+    """Two triangles of each quad, cut along the diagonal that is inside. What is not flat is cut as its shadow along
+    the axis that sees it largest."""
     sane = corners.dtype.kind in "iu" and points.dtype.kind in "fiu" and points.shape[1:] == (3,)
     if not sane or not corners.size or corners.min() < 0 or corners.max() >= len(points):
         return corners[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)  # refused with all the others
@@ -126,7 +127,7 @@ def _of_quads(corners: npt.NDArray[Any], points: npt.NDArray[Any]) -> npt.NDArra
             return np.asarray(np.sign(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]))
 
         first, second = turn(0, 1, 2) * turn(0, 2, 3), turn(1, 2, 3) * turn(1, 3, 0)
-        # What encloses nothing is a line, or its halves turn against each other.
+        # A quad that encloses nothing is a line, or has two halves that turn against each other.
         sides = np.stack([np.cross(seen[:, a], seen[:, b]) for a, b in ((1, 2), (1, 3), (2, 3))], axis=1)
         empty = (normal.max(axis=1) <= 1e-12) & (np.abs(sides).max(axis=(1, 2)) > 1e-12)
     other = first < 0
