@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""The wheel of the Python package: CMake builds the module, and what Debian's libraries it needs beyond those of every
-Linux (libc, libstdc++, zlib) goes into the wheel with its licence.
+"""The wheel of the Python package, one for all Pythons: CMake builds the library of the C interface, and what Debian's
+libraries it needs beyond those of every Linux (libc, libstdc++, zlib) goes into the wheel with its licence.
 
-VOXTACT_PYTHON_BUILD: a folder that CMake has configured already, to take the module from.
+VOXTACT_PYTHON_BUILD: a folder that CMake has configured already, to take the library from.
 """
 import os
 import pathlib
@@ -11,8 +11,13 @@ import shutil
 import subprocess
 import sys
 
-from setuptools import Extension, setup
-from setuptools.command.build_ext import build_ext
+from setuptools import Distribution, setup
+from setuptools.command.build_py import build_py
+
+try:
+    from setuptools.command.bdist_wheel import bdist_wheel
+except ImportError:
+    from wheel.bdist_wheel import bdist_wheel
 
 ROOT = pathlib.Path(__file__).resolve().parent
 # Of every Linux with a C++ program.
@@ -20,17 +25,17 @@ COMMON = re.compile(r"(ld-linux.*|lib(c|m|dl|rt|pthread|gcc_s|stdc\+\+|z))\.so\.
 
 
 def version():
-    """CMakeLists.txt has it."""
-    return re.search(r"project\(voxtact VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text())[1]
+    """version.h has it."""
+    return ".".join(re.findall(r"define VOXTACT_VERSION_\w+ (\d+)", (ROOT / "include/voxtact/version.h").read_text()))
 
 
 def run(*command):
     subprocess.run([str(word) for word in command], check=True)
 
 
-def needed(module):
-    """The shared libraries that are loaded with a module, by their names."""
-    lines = subprocess.run(["ldd", module], check=True, capture_output=True, text=True).stdout.splitlines()
+def needed(library):
+    """The shared libraries that are loaded with a library, by their names."""
+    lines = subprocess.run(["ldd", library], check=True, capture_output=True, text=True).stdout.splitlines()
     return {name: pathlib.Path(path) for name, path in re.findall(r"(\S+) => (/\S+)", "\n".join(lines))}
 
 
@@ -43,25 +48,27 @@ def licence_of(library):
     return None
 
 
-class CMakeBuild(build_ext):
-    def build_extension(self, ext):
+class CMakeBuild(build_py):
+    """The package's files, and what CMake makes for them: the library, and what cffi knows of it."""
+
+    def run(self):
+        super().run()
         folder = os.environ.get("VOXTACT_PYTHON_BUILD")
         if not folder:
-            folder = pathlib.Path(self.build_temp).resolve()
+            folder = ROOT / "build" / "wheel-cmake"
             generator = ["-G", "Ninja"] if shutil.which("ninja") else []
             run("cmake", "-S", ROOT, "-B", folder, *generator, "-DCMAKE_BUILD_TYPE=Release", "-DVOXTACT_BUILD_APP=OFF",
-                "-DVOXTACT_BUILD_C=OFF", "-DVOXTACT_BUILD_PYTHON=ON", f"-DVOXTACT_PYTHON={sys.executable}")
+                "-DVOXTACT_BUILD_PYTHON=ON", f"-DVOXTACT_PYTHON={sys.executable}")
         run("cmake", "--build", folder, "--target", "voxtact_python", "--parallel", str(os.cpu_count()))
-        module = pathlib.Path(self.get_ext_fullpath(ext.name)).resolve()
-        module.parent.mkdir(parents=True, exist_ok=True)
-        built = pathlib.Path(folder).resolve() / "python" / "voxtact" / module.name
-        shutil.copy2(built, module)
+        package, built = pathlib.Path(self.build_lib) / "voxtact", pathlib.Path(folder).resolve() / "python" / "voxtact"
+        for name in ("_cdef.py", "libvoxtact.so"):
+            shutil.copy2(built / name, package / name)
         if shutil.which("strip"):
-            run("strip", "--strip-unneeded", module)
-        self.bundle(built, module.parent)
+            run("strip", "--strip-unneeded", package / "libvoxtact.so")
+        self.bundle(built / "libvoxtact.so", package)
 
     def bundle(self, built, package):
-        """Puts libraries beside the module, which looks there first (RUNPATH is $ORIGIN)."""
+        """Puts libraries beside ours, which looks there first (RUNPATH is $ORIGIN)."""
         shutil.rmtree(package / "licences", ignore_errors=True)
         for name, path in needed(built).items():
             if COMMON.fullmatch(name):
@@ -74,14 +81,32 @@ class CMakeBuild(build_ext):
         shutil.copy2(ROOT / "LICENSE", package / "LICENSE")
 
 
+class Wheel(bdist_wheel):
+    """Of every Python 3, on this kind of machine: nothing in it is compiled for a Python."""
+
+    def finalize_options(self):
+        super().finalize_options()
+        self.root_is_pure = False
+
+    def get_tag(self):
+        return "py3", "none", super().get_tag()[2]
+
+
+class Binary(Distribution):
+    """Goes where libraries go."""
+
+    def has_ext_modules(self):
+        return True
+
+
 (ROOT / "build").mkdir(exist_ok=True)
 setup(
     version=version(),
     packages=["voxtact"],
     package_dir={"": "src/python"},
-    package_data={"voxtact": ["*.pyi", "py.typed"]},
-    ext_modules=[Extension("voxtact._core", sources=[])],
-    cmdclass={"build_ext": CMakeBuild},
+    package_data={"voxtact": ["py.typed"]},
+    distclass=Binary,
+    cmdclass={"build_py": CMakeBuild, "bdist_wheel": Wheel},
     options={"egg_info": {"egg_base": "build"}},
     zip_safe=False,
 )

@@ -4,7 +4,7 @@
 #
 # Install components: `voxtact` (the library, its headers and the package files), `voxtact_cpu`,
 # `voxtact_io`, `voxtact_render`, `voxtact_samples` and `voxtact_c`. The program, `voxtact_program`, installs itself in
-# src/app, and the Python package, `voxtact_python`, in src/python.
+# src/cli, and the Python package, `voxtact_python`, in src/python.
 include(CMakePackageConfigHelpers)
 set(voxtact_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/voxtact")
 set(voxtact_include_dir "${CMAKE_INSTALL_INCLUDEDIR}/voxtact")
@@ -32,6 +32,7 @@ function(voxtact_install target export_set)
 endfunction()
 
 voxtact_install(voxtact voxtact-targets ${voxtact_headers})
+install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT voxtact)
 if(VOXTACT_BUILD_CPU)
   voxtact_install(voxtact_cpu voxtact-cpu-targets ${voxtact_cpu_headers})
 endif()
@@ -70,12 +71,14 @@ endfunction()
 get_target_property(voxtact_type voxtact TYPE)
 set(voxtact_static_needs "")
 set(voxtact_c_static_needs "")
+set(VOXTACT_PC_DEFINES "")
 if(voxtact_type STREQUAL "STATIC_LIBRARY")
+  set(VOXTACT_PC_DEFINES " -DVOXTACT_STATIC")
   list(TRANSFORM VOXTACT_CXX_RUNTIME PREPEND " -l" OUTPUT_VARIABLE voxtact_static_needs)
   string(JOIN "" voxtact_static_needs ${voxtact_static_needs})
   set(voxtact_c_static_needs " -lvoxtact_cpu -lvoxtact -lhwy")
   if(VOXTACT_BUILD_IO)
-    set(voxtact_c_static_needs " -lvoxtact_io${voxtact_c_static_needs} -lpng -lz -lopenjp2")
+    set(voxtact_c_static_needs " -lvoxtact_io${voxtact_c_static_needs} -lpng -lpugixml -lz -lopenjp2")
   endif()
   if(VOXTACT_BUILD_RENDER)
     string(PREPEND voxtact_c_static_needs " -lvoxtact_render")

@@ -16,7 +16,7 @@ fail() {
 }
 
 for tool in patchelf objdump strip dpkg-query; do
-    command -v "$tool" >/dev/null || fail "$tool is missing; third_party/debian-packages.txt has its package"
+    command -v "$tool" >/dev/null || fail "$tool is missing; third_party/packages-test.txt has its package"
 done
 
 # Those that need no file of the checkout and no compiler. The tier io is not here: it compares with ITK.
@@ -25,8 +25,8 @@ layer=libVkLayer_khronos_validation.so
 layer_manifest=/usr/share/vulkan/explicit_layer.d/VkLayer_khronos_validation.json
 head=/usr/share/mricron/templates/ch2.nii.gz
 # Packages of which something is compiled in.
-compiled_in=(libcli11-dev libglm-dev libgtest-dev libimgui-dev libstb-dev libvulkan-dev libvulkan-volk-dev nlohmann-json3-dev
-    fonts-dejavu-core libjs-chart.js)
+compiled_in=(libcli11-dev libglm-dev libgtest-dev libimgui-dev libstb-dev libvulkan-dev libvulkan-volk-dev libxxhash-dev nlohmann-json3-dev
+    fonts-dejavu-core)
 
 version=$("$build/voxtact" --version | sed -n '1s/^voxtact \([^ ]*\).*/\1/p')
 name=voxtact-$version-$(uname -m)
@@ -36,7 +36,9 @@ rm -rf "$folder"
 mkdir -p "$folder"/{libexec,lib/base,share/data,share/licences,share/vulkan/explicit_layer.d}
 
 # -- programs
-install -m 755 "$build/voxtact" "$folder/libexec/voxtact"
+for program in voxtact voxtact-view voxtact-bench; do
+    install -m 755 "$build/$program" "$folder/libexec/"
+done
 for tier in "${tests[@]}"; do
     program=$build/tests/$tier/voxtact_${tier}_tests
     [ -x "$program" ] || fail "$program is missing; './run bundle' builds it"

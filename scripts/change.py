@@ -58,15 +58,15 @@ def check_method(program):
         fail(f"the method {METHOD} is not there, or does not pass its self-test: {verdicts}")
     run(program, "compare", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:500", "--number", 16, "--oracle",
         2, "--sweep", "none", "--size", "96x96", "--cache", "off")
-    rows = run(program, "detect", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:500", "--count", METHOD,
+    rows = run(program, "count", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:500", "--method", METHOD,
                "--format", "csv")
     if METHOD not in rows:
-        fail(f"detect --count {METHOD} printed {rows}")
+        fail(f"count --method {METHOD} printed {rows}")
 
 
 def check_output(program):
-    for method, projection in (("cpu", "conservative"), ("cpu", "view"), ("compute", "conservative"), ("query", "view")):
-        out = run(program, "detect", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:500", "--count", method,
+    for method, projection in (("cpu", "certified"), ("cpu", "view"), ("compute", "certified"), ("query", "view")):
+        out = run(program, "count", "--volume", "builtin:head:32", "--mesh", "builtin:scalpel:500", "--method", method,
                   "--projection", projection, f"--{OUTPUT}", "--format", "json", "--progress", "never")
         rows = json.loads(out)["rows"]
         if not any(row["count"] for row in rows) or any(row["count"] != row[OUTPUT] for row in rows):
@@ -76,7 +76,7 @@ def check_output(program):
 # Each with what docs/change.md says: the steps 1 to 3 of a counting method, and all of an output but its documentation.
 CHANGES = (
     ("a counting method", "method.patch", 5, "src/core/method/method_table.h", f'"{METHOD}"', check_method),
-    ("an output", "output.patch", 7, "src/detect/outputs/output_parts.cpp", f'"{OUTPUT}"', check_output),
+    ("an output", "output.patch", 7, "src/device/outputs/output_parts.cpp", f'"{OUTPUT}"', check_output),
 )
 
 

@@ -9,7 +9,6 @@
 set -uo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.." || exit 1
 failed=()
-export VOXTACT_TEST_KIND="${VOXTACT_TEST_KIND:-$RANDOM}" # tests/gpu/few_kinds.h
 
 sanitized() {
     local preset=$1 tiers=$2

@@ -22,13 +22,14 @@ done
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 
-detect=("$program" detect --volume "$volume" --mesh "$mesh" --poses "$poses" --transfer-function docs/demo/head.tf)
+count=("$program" count --volume "$volume" --mesh "$mesh" --poses "$poses" --transfer-function docs/demo/head.tf)
 for method in query atomic; do
-    "${detect[@]}" --count "$method" --timing --batch 1 --format csv --output "$out/$method.csv"
+    "${count[@]}" --method "$method" --timing --batch 1 --format csv --output "$out/$method.csv"
 done
-"${detect[@]}" --count query --format json --output "$out/device.json"
+"${count[@]}" --method query --format json --output "$out/device.json"
+rm -rf "${contacts%/*}"
 mkdir -p "${contacts%/*}"
-certified=("${detect[@]}" --labels "$labels" --contacts "$contacts")
+certified=("${count[@]}" --labels "$labels" --label-counts --contacts "$contacts")
 "${certified[@]}" --format csv --output "$out/certified.csv"
 device=$(sed -n 's/^"device": "\(.*\)",$/\1/p' "$out/device.json")
 driver=$(sed -n 's/^"driver": "\(.*\)",$/\1/p' "$out/device.json")
@@ -39,7 +40,7 @@ printf '  device  %s; driver %s\n\n' "$device" "$driver"
 
 # The poses' names, then query's rows, then atomic's: one table.
 awk '
-    BEGIN { poses = method = differ = 0; word[0] = "no"; word[1] = "yes"; word[2] = "possible" }
+    BEGIN { poses = method = differ = 0; word[0] = "no"; word[1] = "yes"; word[2] = "undecided" }
     FILENAME ~ /poses.txt$/ {
         if (/^# [a-z]+: /) { name = $2; sub(/:$/, "", name); text = $0; sub(/^# [a-z]+: /, "", text) }
         else if (NF == 16 && $1 !~ /^#/) { names[poses] = name; texts[poses++] = text }
@@ -50,17 +51,17 @@ awk '
     {
         split($0, field, ",")
         for (i in header) row[header[i]] = field[i]
-        p = row["pose"]; hit[p] = row["hit"]
+        p = row["pose"]; touch[p] = row["touch"]
         count[method, p] = row["count"]; gpu[method, p] = row["gpu_ms"]; wall[method, p] = row["wall_ms"]
     }
     END {
-        cells = "%-9s %-4s %9s %9s  %-5s  %15s %15s"
-        printf cells "\n", "pose", "hit", "query", "atomic", "agree", "query ms", "atomic ms"
+        cells = "%-9s %-5s %9s %9s  %-5s  %15s %15s"
+        printf cells "\n", "pose", "touch", "query", "atomic", "agree", "query ms", "atomic ms"
         printf cells "\n", "", "", "fragments", "fragments", "", "GPU / wall", "GPU / wall"
         for (p = 0; p < poses; p++) {
             same = count[1, p] == count[2, p] && count[1, p] != ""
             if (!same) differ = 1
-            printf cells "   %s\n", names[p], word[hit[p]], count[1, p], count[2, p], same ? "yes" : "NO",
+            printf cells "   %s\n", names[p], word[touch[p]], count[1, p], count[2, p], same ? "yes" : "NO",
                 sprintf("%.2f / %.2f", gpu[1, p], wall[1, p]), sprintf("%.2f / %.2f", gpu[2, p], wall[2, p]), texts[p]
         }
         exit differ ? 3 : 0
@@ -69,16 +70,16 @@ awk '
 cat <<TEXT
 
 What it says:
-  hit        at least one fragment of the scalpel lies in an opaque sample of the head
+  touch      at least one fragment of the scalpel lies in an opaque sample of the head
   fragments  how many do: pixels of a 512x512 view from above, counted by an occlusion query, and by atomicAdd
   agree      the two ways to count give the same number; if not, this command ends with exit status 3
   ms         time on the device, and from recording to the result on the host, each pose submitted alone. The first
              has no warm-up: the driver may compile its shaders in it
 
-The command that was run, once for each method (other poses, volumes and meshes: $program detect --help):
+The command that was run, once for each method (other poses, volumes and meshes: $program count --help):
 
-  ${detect[*]} \\
-      --count query --timing --batch 1
+  ${count[*]} \\
+      --method query --timing --batch 1
 TEXT
 
 method=$(awk -F, 'NR == 2 { print $7 }' "$out/certified.csv")
@@ -90,7 +91,7 @@ decided with bounds on all rounding, so that no contact is missed between the pi
 TEXT
 awk '
     BEGIN {
-        poses = 0; word[0] = "no"; word[1] = "yes"; word[2] = "possible"
+        poses = 0; word[0] = "no"; word[1] = "yes"; word[2] = "undecided"
         cells = "%-9s %-9s %-16s %s\n"
         printf cells, "pose", "touches", "deepest contact", "brain regions"
     }
@@ -108,13 +109,13 @@ awk '
         if (regions == "") regions = "-"
         else if (regions ~ /^0:/) regions = "none: not yet in the brain"
         else { gsub(/:/, " (", regions); gsub(/;/, "), ", regions); regions = regions ")" }
-        printf cells, names[row["pose"]], word[row["hit"]], depth, regions
+        printf cells, names[row["pose"]], word[row["touch"]], depth, regions
     }' "$poses" "$out/certified.csv"
 
 cat <<TEXT
 
 What it says:
-  touches          no is certain, and so is yes; possible: so close that rounding decides
+  touches          no is certain, and so is yes; undecided: so close that rounding decides
   deepest contact  from a contact along the normal of the tissue to where the head ends; it is followed for 10 mm
   brain regions    of the atlas AAL ($labels), each with its number of contacts
 
@@ -145,6 +146,18 @@ Where a part of the blade inside the head is not red, the image is dark (bone, f
   ${render[*]}
 TEXT
 
+# How much of the blade is in the brain.
+overlap=("$program" overlap --volume "$volume" --transfer-function docs/demo/head.tf --mesh "$mesh" --poses "$poses"
+    --labels "$labels" --in all --tolerance 10 --format csv)
+"${overlap[@]}" --quiet >"$out/overlap.csv"
+printf '\n%s\n\n' "How many mm^3 of the blade are in the regions of the brain, in the pose that touches most?"
+awk -F, -v best="$pose" '
+    NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
+    $at["pose"] == best && $at["lower"] > 0 {
+        printf "  %-24s %8.0f to %.0f\n", $at["label_name"], $at["lower"], $at["upper"]
+    }' "$out/overlap.csv"
+printf '\n%s\n\n  %s\n' "The command:" "${overlap[*]}"
+
 # Which way in.
 plan=("$program" plan --volume "$volume" --transfer-function docs/demo/head.tf --labels "$labels" --target Thalamus_L
     --avoid Insula_L,Hippocampus_L,Caudate_L,Putamen_L --margin 2 --mesh builtin:needle:2:200 --summary
@@ -155,7 +168,7 @@ plan=("$program" plan --volume "$volume" --transfer-function docs/demo/head.tf -
     exit 1
 }
 printf '\n%s\n\n' "Which straight paths of a needle to the left thalamus keep 2 mm from insula, hippocampus, caudate and putamen?"
-sed 's/^voxtact: note: /  /' "$out/summary"
+sed 's/^voxtact: summary: /  /' "$out/summary"
 cat <<TEXT
 
 A page with maps and the safest paths: build/demo/paths.html; a picture of the best one: build/demo/path.png; all paths:

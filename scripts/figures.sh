@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Draws the paper's figures 2, 3 and 5 anew (Volume-Surface Collision Detection), from builtins that stand for its files.
-# Usage: figures.sh PROGRAM FOLDER. The bars and curves of its figure 6 are those of `voxtact bench --paper --report`.
+# Draws the paper's figures 2, 3 and 5 again (Volume-Surface Collision Detection), from builtins that stand for its files.
+# Usage: figures.sh PROGRAM FOLDER. The figures of its figure 6 are in the tables of `voxtact bench --paper --report`.
 set -euo pipefail
 program=$(readlink -f "${1:?usage: figures.sh PROGRAM FOLDER}")
 mkdir -p "${2:?usage: figures.sh PROGRAM FOLDER}"
@@ -12,16 +12,16 @@ trap 'rm -rf "$work"' EXIT
 # A pose at which the mesh touches the volume: the first of some random ones.
 touching() {
     local volume=$1 mesh=$2 opacity=$3
-    "$program" make poses --volume "$volume" --mesh "$mesh" --number 40 --seed 5 --output "$work/poses.txt"
-    "$program" detect --volume "$volume" --mesh "$mesh" --opacity "$opacity" --poses "$work/poses.txt" --format csv \
-        --output "$work/answers.csv"
+    "$program" make poses --volume "$volume" --mesh "$mesh" --number 40 --seed 5 --force --output "$work/poses.txt"
+    "$program" count --volume "$volume" --mesh "$mesh" --opacity "$opacity" --poses "$work/poses.txt" --format csv \
+        --force --output "$work/answers.csv"
     awk -F, '!/^#/ && $4 == 1 && $5 > most { most = $5; pose = $1 } END { print pose + 0 }' "$work/answers.csv"
 }
 
 draw() {
     local picture=$1
     shift
-    "$program" render --size 512x512 --no-annotate --output "$picture" "$@"
+    "$program" render --size 512x512 --no-annotate --force --output "$picture" "$@"
     printf '%s/%s\n' "$PWD" "$picture"
 }
 

@@ -147,7 +147,7 @@ step devices devices.json 40 "$program" devices --format json --output "$out/dev
 on_cpu=0
 tr -d '\n' <"$out/devices.json" | grep -o '{[^{}]*}' | grep '"default": *1' | grep -q '"type": *"cpu"' && on_cpu=1
 
-agreement=(AgreementTest HostAgreementTest ConservativeTest AnalyticTest ProjectionsTest OutputsTest RandomPosesTest
+agreement=(AgreementTest HostAgreementTest CertifiedTest AnalyticTest ProjectionsTest OutputsTest RandomPosesTest
     EditTest ValueTest TableUpdateTest BricksTest DrillTest LocalizeTest QueuesTest CountersTest RoundsTest DrawSizeTest
     RecordedOutputsTest ProjectionOutputsTest CGpuTest DevicePosesTest StagedTest)
 latency=(--time-limit 25)

@@ -3,14 +3,14 @@
 # Second opinions: the tests of agreement on other software drivers than the one that is installed, which are fetched
 # through apt and unpacked into build/drivers, not installed: lavapipe of a newer Mesa, from Debian 12's backports, and
 # SwiftShader, from Debian's package of Chromium.
-# SwiftShader promises no rounding to nearest, and so there is no `conservative` on it.
+# SwiftShader promises no rounding to nearest, and so there is no `certified` on it.
 # Usage: second_drivers.sh TESTS [FILTER]   (TESTS: the program voxtact_gpu_tests; FILTER: GoogleTest's, for both)
 # Exit status: 0 all pass; 1 something failed on one of them; 77 nothing could be fetched.
 set -uo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.." || exit 1
 tests=${1:?usage: second_drivers.sh TESTS [FILTER]}
 asked=${2:-}
-of_mesa=(ArithmeticTest.\* MethodsTest.\* AgreementTest.\* HostAgreementTest.\* ConservativeTest.\* AnalyticTest.\*
+of_mesa=(ArithmeticTest.\* MethodsTest.\* AgreementTest.\* HostAgreementTest.\* CertifiedTest.\* AnalyticTest.\*
     ProjectionsTest.\* RandomPosesTest.\* EditTest.\* ValueTest.\* TableUpdateTest.\*)
 of_swiftshader=(AgreementTest.\*-\*.ItemsOfOneBatchKeepTheirNames:\*.QueriesCountRightInLongSubmissions
     ArithmeticTest.\* ValueTest.\* EditTest.\* TableUpdateTest.\* AnalyticTest.\*)

@@ -31,7 +31,7 @@ CONFIG = ROOT / ".clang-tidy"
 SLOW_CHECKS = "-performance-unnecessary-value-param"
 TOGETHER = 16
 KEPT_DAYS = 60
-# What .clang-tidy names, and the sources that are included where they are looked at as one.
+# What .clang-tidy names, and the sources that are included where they are examined as one.
 OURS = r"(src|include|tests)/.*\.(h|cpp)$"
 
 
@@ -172,7 +172,7 @@ class Tidy:
         """Whether it finds nothing, and its findings."""
         with tempfile.TemporaryDirectory(dir=self.folder) as database:
             (pathlib.Path(database) / "compile_commands.json").write_text(json.dumps([entry]))
-            # The configuration by its name: what is looked at may be anywhere.
+            # The configuration by its name: what is examined may be anywhere.
             done = subprocess.run(["clang-tidy", "--quiet", f"--config-file={CONFIG}", f"--checks={self.checks}", "-p",
                                    database, *options, entry["file"]], text=True, capture_output=True)
         # The count of warnings in other people's headers goes to standard error: of no interest unless it fails.

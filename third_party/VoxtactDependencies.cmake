@@ -1,5 +1,5 @@
-# How each dependency is found. Everything comes from the system; debian-packages.txt beside this file lists the
-# packages of Debian 12. Nothing is downloaded and nothing is copied.
+# How each dependency is found. Everything comes from the system; the lists packages-*.txt beside this file name
+# the packages of Debian 12. Nothing is downloaded and nothing is copied.
 
 # voxtact::voxtact: Vulkan headers, and at build time glm, glslang and SPIRV-Tools.
 find_package(VulkanHeaders CONFIG QUIET)
@@ -13,8 +13,9 @@ find_program(VOXTACT_GLSLANG glslangValidator REQUIRED)
 find_program(VOXTACT_SPIRV_OPT spirv-opt REQUIRED)
 find_program(VOXTACT_SPIRV_VAL spirv-val REQUIRED)
 
-# voxtact::cpu
+# voxtact::cpu: of xxHash the header alone, at build time.
 if(VOXTACT_BUILD_CPU)
+  find_path(VOXTACT_XXHASH_INCLUDE_DIR xxhash.h REQUIRED)
   find_package(hwy 1.0.3 CONFIG REQUIRED)
   find_package(Threads REQUIRED)
 endif()
@@ -26,6 +27,7 @@ if(VOXTACT_BUILD_IO)
   find_path(VOXTACT_OPENJPEG_INCLUDE_DIR openjpeg.h PATH_SUFFIXES openjpeg-2.5 REQUIRED)
   find_library(VOXTACT_OPENJPEG_LIBRARY openjp2 REQUIRED)
   find_package(PNG REQUIRED)
+  find_package(pugixml CONFIG REQUIRED) # XML of VTK
   find_package(ZLIB REQUIRED)
 endif()
 
@@ -34,34 +36,25 @@ if(VOXTACT_BUILD_APP OR VOXTACT_BUILD_TESTS)
   find_path(VOXTACT_STB_INCLUDE_DIR stb_truetype.h PATH_SUFFIXES stb REQUIRED)
 endif()
 
-# the Python package. The system's Python is asked first: that is where Debian's numpy and pybind11 are.
+# the Python package. The system's Python is asked first: that is where Debian's numpy and cffi are.
 if(VOXTACT_BUILD_PYTHON)
   find_program(VOXTACT_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH)
   find_program(VOXTACT_PYTHON python3 REQUIRED)
-  set(Python_EXECUTABLE "${VOXTACT_PYTHON}" CACHE FILEPATH "The Python that the package is built for")
-  find_package(Python 3.9 COMPONENTS Interpreter Development.Module REQUIRED)
-  find_package(pybind11 2.10 CONFIG REQUIRED)
+  set(Python_EXECUTABLE "${VOXTACT_PYTHON}" CACHE FILEPATH "The Python that builds and tests the package")
+  find_package(Python 3.9 COMPONENTS Interpreter REQUIRED)
 endif()
 
-# the program: volk is a header and a source file that the program compiles. Chart.js draws the charts of
-# `compare --report`, which says so where it is missing; it becomes part of the program, and its licence with it.
+# the program: volk is a header and a source file that the program compiles.
 if(VOXTACT_BUILD_APP)
-  find_file(VOXTACT_CHART_LIBRARY chart.min.js PATHS /usr/share/javascript/chart.js NO_DEFAULT_PATH)
-  find_file(VOXTACT_CHART_LICENCE copyright PATHS /usr/share/doc/libjs-chart.js NO_DEFAULT_PATH)
   find_package(CLI11 CONFIG REQUIRED)
   find_path(VOXTACT_VOLK_INCLUDE_DIR volk.h REQUIRED)
   # What `render` writes on pictures with: it becomes part of the program. Any TrueType file will do.
   find_file(VOXTACT_FONT DejaVuSans.ttf PATHS /usr/share/fonts /usr/local/share/fonts
             PATH_SUFFIXES truetype/dejavu TTF dejavu dejavu-sans-fonts NO_DEFAULT_PATH REQUIRED)
-  # voxtact-mpi alone needs it.
-  if(VOXTACT_BUILD_MPI)
-    find_package(MPI 3.0 QUIET COMPONENTS CXX)
-    if(NOT TARGET MPI::MPI_CXX)
-      message(STATUS "MPI is not found: without voxtact-mpi")
-      set(VOXTACT_BUILD_MPI OFF)
-    endif()
-  endif()
-  # FCL is what `bench` compares with, where it is found.
+endif()
+
+# FCL is what `bench` compares with, where it is found.
+if(VOXTACT_BUILD_BENCH)
   find_package(octomap QUIET)
   find_package(fcl QUIET)
   set(VOXTACT_WITH_FCL OFF)

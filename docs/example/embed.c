@@ -35,7 +35,7 @@ typedef struct scene {
     vxt_volume_view volume;
     vxt_control_point points[2];
     vxt_transfer_function_desc opacity;
-    float positions[12]; /* a plate of 4 mm by 4 mm around its own origin */
+    double positions[12]; /* a plate of 4 mm by 4 mm around its own origin */
     uint32_t indices[6];
     vxt_mesh_view mesh;
     double world_from_object[16];
@@ -46,7 +46,7 @@ static void make_volume(scene* s) {
     for (int i = 0; i < VOXELS; ++i) {
         s->voxels[i] = i % SIDE < SIDE / 2 ? 255 : 0;
     }
-    s->volume = vxt_volume_view_init();
+    s->volume.struct_size = sizeof s->volume; /* what is not set is 0, which stands for the default */
     s->volume.voxels = s->voxels;
     s->volume.bytes = sizeof s->voxels;
     for (int axis = 0; axis < 3; ++axis) {
@@ -57,17 +57,17 @@ static void make_volume(scene* s) {
     s->points[0].opacity = 0;
     s->points[1].value = 135;
     s->points[1].opacity = 1;
-    s->opacity = vxt_transfer_function_desc_init();
+    s->opacity.struct_size = sizeof s->opacity;
     s->opacity.points = s->points;
     s->opacity.point_count = 2;
 }
 
 static void make_mesh(scene* s) {
-    const float positions[12] = {-2, -2, 0, 2, -2, 0, 2, 2, 0, -2, 2, 0};
+    const double positions[12] = {-2, -2, 0, 2, -2, 0, 2, 2, 0, -2, 2, 0};
     const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
     memcpy(s->positions, positions, sizeof positions);
     memcpy(s->indices, indices, sizeof indices);
-    s->mesh = vxt_mesh_view_init();
+    s->mesh.struct_size = sizeof s->mesh;
     s->mesh.positions = s->positions;
     s->mesh.vertex_count = 4;
     s->mesh.indices = s->indices;
@@ -90,11 +90,18 @@ static void make_scene(scene* s) {
     s->view.width = s->view.height = 64;
 }
 
+/* Of the first pair. An answer is a table of columns. */
+static const void* value_of(const vxt_answer* answer, const char* name) {
+    vxt_column column = {.struct_size = sizeof column};
+    done(vxt_answer_find(answer, "pairs", name, &column));
+    return column.data;
+}
+
 static void print_answer(const vxt_answer* answer) {
-    vxt_answer_view view = vxt_answer_view_init();
-    done(vxt_answer_get(answer, &view));
-    printf("hit %u, %llu fragments, method %s\n", (unsigned)view.pairs[0].hit, (unsigned long long)view.pairs[0].count,
-           vxt_method_name(view.pairs[0].method));
+    const uint32_t touch = *(const uint32_t*)value_of(answer, "touch"); /* 0 no, 1 yes, 2 undecided */
+    const uint64_t count = *(const uint64_t*)value_of(answer, "count");
+    printf("touch %u, %llu fragments, method %s\n", (unsigned)touch, (unsigned long long)count,
+           vxt_method_name(*(const vxt_method*)value_of(answer, "method")));
 }
 
 /* Without a device. */
@@ -102,26 +109,26 @@ static void ask_the_host(const scene* s, vxt_answer* answer) {
     vxt_host_volume* volume;
     vxt_host_transfer_function* opacity;
     vxt_host_mesh* mesh;
-    vxt_host_detector* detector;
+    vxt_host_engine* engine;
     done(vxt_host_volume_create(&s->volume, &volume));
     done(vxt_host_transfer_function_create(&s->opacity, &opacity));
     done(vxt_host_mesh_create(&s->mesh, &mesh));
-    done(vxt_host_detector_create(NULL, &detector));
+    done(vxt_host_engine_create(0, &engine));
 
-    vxt_host_item item = vxt_host_item_init();
-    item.mesh = mesh;
-    item.volume = volume;
-    item.transfer_function = opacity;
-    item.world_from_object = s->world_from_object;
-    item.pose_count = 1;
-    vxt_host_batch batch = vxt_host_batch_init();
-    batch.items = &item;
-    batch.item_count = 1;
-    batch.view = &s->view;
-    done(vxt_host_detector_detect(detector, &batch, answer));
+    const vxt_host_item item = {.mesh = mesh,
+                                .volume = volume,
+                                .transfer_function = opacity,
+                                .world_from_object = s->world_from_object,
+                                .pose_count = 1};
+    const vxt_pairs pairs = {.struct_size = sizeof pairs, .items = &item, .item_count = 1, .view = &s->view};
+    done(vxt_ask_count(engine, NULL, &pairs, answer)); /* null: all defaults */
     print_answer(answer);
+    const vxt_distance question = {.struct_size = sizeof question, .tolerance = 0.1};
+    done(vxt_ask_distance(engine, &question, &pairs, answer));
+    printf("distance %g to %g mm\n", *(const double*)value_of(answer, "lower"),
+           *(const double*)value_of(answer, "upper"));
 
-    vxt_host_detector_destroy(detector);
+    vxt_host_engine_destroy(engine);
     vxt_host_mesh_destroy(mesh);
     vxt_host_transfer_function_destroy(opacity);
     vxt_host_volume_destroy(volume);
@@ -222,13 +229,13 @@ static void end_renderer(renderer* r) {
 }
 
 static vxt_context* make_context(const renderer* r) {
-    vxt_context_desc desc = vxt_context_desc_init(); /* your instance, device and loader */
-    desc.get_instance_proc_addr = r->get_instance_proc_addr;
-    desc.instance = r->instance;
-    desc.physical_device = r->physical_device;
-    desc.device = r->device;
-    desc.api_version = VK_API_VERSION_1_3;
-    desc.enabled_features = vxt_features_chain(r->features);
+    const vxt_context_desc desc = {.struct_size = sizeof desc, /* your instance, device and loader */
+                                   .get_instance_proc_addr = r->get_instance_proc_addr,
+                                   .instance = r->instance,
+                                   .physical_device = r->physical_device,
+                                   .device = r->device,
+                                   .api_version = VK_API_VERSION_1_3,
+                                   .enabled_features = vxt_features_chain(r->features)};
     vxt_context* context;
     done(vxt_context_create(&desc, &context));
     return context;
@@ -237,11 +244,8 @@ static vxt_context* make_context(const renderer* r) {
 /* On the device: what is recorded here stands between the engine's own commands. */
 static void ask_the_device(renderer* r, const scene* s, vxt_answer* answer) {
     vxt_context* context = make_context(r);
-    vxt_queue queue = vxt_queue_init();
-    queue.queue = r->queue;
-    queue.family = r->queue_family;
-    vxt_detector_desc desc = vxt_detector_desc_init();
-    desc.method = vxt_context_default_method(context);
+    const vxt_queue queue = {.struct_size = sizeof queue, .queue = r->queue, .family = r->queue_family};
+    const vxt_detector_desc desc = {.struct_size = sizeof desc, .method = vxt_context_default_method(context)};
     vxt_volume* volume;
     vxt_transfer_function* opacity;
     vxt_mesh* mesh;
@@ -253,16 +257,13 @@ static void ask_the_device(renderer* r, const scene* s, vxt_answer* answer) {
     done(vxt_detector_create(context, &desc, &detector));
     done(vxt_results_create(context, NULL, &results));
 
-    vxt_item item = vxt_item_init();
-    item.mesh = mesh;
-    item.volume = volume;
-    item.transfer_function = opacity;
-    item.world_from_object = s->world_from_object;
-    item.pose_count = 1;
-    vxt_batch batch = vxt_batch_init();
-    batch.items = &item;
-    batch.item_count = 1;
-    batch.view = &s->view;
+    const vxt_item item = {.struct_size = sizeof item,
+                           .mesh = mesh,
+                           .volume = volume,
+                           .transfer_function = opacity,
+                           .world_from_object = s->world_from_object,
+                           .pose_count = 1};
+    const vxt_batch batch = {.struct_size = sizeof batch, .items = &item, .item_count = 1, .view = &s->view};
     done(vxt_detector_cmd_detect(detector, r->commands, &batch, results)); /* only records */
     done(vxt_results_cmd_read_back(results, r->commands));
     end_frame_and_wait(r);

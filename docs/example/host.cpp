@@ -25,79 +25,76 @@ template <class T> T take(Result<T> result) {
     return std::move(*result);
 }
 
-void detect(const cpu::Batch& batch) {
-    // [detect]
-    cpu::Detector detector = take(cpu::Detector::create(
-        {.projection = Projection::Conservative, .outputs = {.triangles = true, .contacts = true}}));
-    const BatchAnswer answer = take(detector.detect(batch));
-    for (const PairAnswer& pair : answer.pairs) {
-        std::printf("pose %u: %s\n", pair.pose, pair.hit ? "touches" : pair.possible ? "possible" : "free");
+void touch(cpu::HostEngine& engine, const cpu::Batch& batch) {
+    // [touch]
+    const TouchAnswer answer = take(engine.ask(Touch{.witness = true}, batch));
+    for (const PairTouch& pair : answer.pairs) {
+        std::printf("pose %u touches: %s\n", pair.pose, toString(pair.touch)); // yes, no or undecided
     }
-    for (const Contact& contact : answer.contacts) { // by pair, then by triangle
+    const BatchAnswer counted =
+        take(engine.ask(Count{.projection = Projection::Certified, .outputs = {.contacts = true}}, batch));
+    for (const Contact& contact : counted.contacts) { // by pair, then by triangle
         std::printf("pair %u, triangle %u, %.1f mm deep\n", contact.pair, contact.triangle, contact.depth);
     }
-    // [/detect]
+    // [/touch]
 }
 
-void measure(const cpu::Batch& batch) {
-    // [clearance]
-    cpu::ClearanceMeter meter = take(cpu::ClearanceMeter::create({.tolerance = 0.1}));
-    const ClearanceAnswer answer = take(meter.measure(batch));
-    for (const PairClearance& pair : answer.pairs) {
-        std::printf("pose %u: %.2f to %.2f mm\n", pair.pose, pair.bounds.lo, pair.bounds.hi);
+void measure(cpu::HostEngine& engine, const cpu::Batch& batch) {
+    // [distance]
+    const DistanceAnswer answer = take(engine.ask(Distance{.tolerance = 0.1}, batch));
+    for (const PairDistance& pair : answer.pairs) {
+        std::printf("pose %u: %.2f to %.2f mm\n", pair.pose, pair.bounds.lower, pair.bounds.upper);
     }
-    const BatchAnswer margin = take(meter.within(batch, 2.0)); // pairs[i].hit: is anything within 2 mm?
-    // [/clearance]
-    std::printf("%zu margins\n", margin.pairs.size());
+    const TouchAnswer near = take(engine.ask(Touch{.margin = 2}, batch)); // is anything opaque within 2 mm?
+    // [/distance]
+    std::printf("%zu margins\n", near.pairs.size());
 }
 
-void measureArea(const cpu::Batch& batch) {
+void measureArea(cpu::HostEngine& engine, const cpu::Batch& batch) {
     // [area]
-    cpu::AreaMeter meter = take(cpu::AreaMeter::create({.tolerance = 1.0}));
-    const AreaAnswer answer = take(meter.measure(batch));
+    const AreaAnswer answer = take(engine.ask(Area{.tolerance = 1}, batch));
     for (const PairArea& pair : answer.pairs) {
-        std::printf("pose %u: %.0f to %.0f mm^2\n", pair.pose, pair.bounds.lo, pair.bounds.hi);
+        std::printf("pose %u: %.0f to %.0f mm^2\n", pair.pose, pair.bounds.lower, pair.bounds.upper);
     }
     // [/area]
 }
 
 void follow(const cpu::BatchItem& scene, std::span<const Mat4> hand) {
     // [tracker]
-    cpu::ClearanceTracker tracker = take(cpu::ClearanceTracker::create());
+    cpu::DistanceTracker tracker = take(cpu::DistanceTracker::create());
     for (const Mat4& pose : hand) {
         cpu::BatchItem tick = scene; // mesh, volume and transfer function are the same at each tick
         tick.world_from_object = {&pose, 1};
-        const TrackedClearance now = take(tracker.track(tick));
-        std::printf("%s, at least %.2f mm%s\n", now.hit ? "touches" : "free", now.bounds.lo,
+        const TrackedDistance now = take(tracker.track(tick));
+        std::printf("%s, at least %.2f mm%s\n", now.hit ? "touches" : "free", now.bounds.lower,
                     now.searched ? "" : ", known from before");
     }
     // [/tracker]
 }
 
-void move(const cpu::Batch& batch) {
+void move(cpu::HostEngine& engine, const cpu::Batch& batch) {
     // [motion]
-    cpu::MotionChecker checker = take(cpu::MotionChecker::create({.interpolation = Interpolation::Slerp}));
-    const MotionAnswer answer = take(checker.check(batch)); // a segment between two poses, and the next
+    const MotionAnswer answer = take(engine.ask(Motion{.interpolation = Interpolation::Slerp}, batch));
     for (const SegmentMotion& segment : answer.segments) {
         std::printf("segment %u is free until %.3f\n", segment.segment, segment.freeUntil);
         if (segment.touch) {
             std::printf("and touches at %.3f\n", segment.touch->at);
         }
     }
-    const BatchAnswer off = take(checker.around(batch, {.distance = 1.0, .angle = 2.0})); // mm, degrees: pairs[i].hit
+    // Does it touch at any pose that is off by at most 1 mm and 2 degrees?
+    const TouchAnswer off = take(engine.ask(Touch{.uncertainty = PoseTolerance{1, 2}}, batch));
     // [/motion]
     std::printf("%zu poses that may be off\n", off.pairs.size());
 }
 
-void plan(const cpu::Volume& volume, const LabelData& labels, const Vec3& target) {
+void plan(cpu::HostEngine& engine, const cpu::Volume& volume, const LabelData& labels, const Vec3& target) {
     // [plan]
-    cpu::Planner planner = take(cpu::Planner::create());
     const cpu::PlanObstacle vessels{.volume = &volume, .labels = &labels, .avoid = {1}}; // all that has this label
-    const PlanAnswer answer = take(planner.plan({.target = target,
-                                                 .surface = {.entries = 1002, .radius = 80},
-                                                 .obstacles = {&vessels, 1},
-                                                 .needle = {.diameter = 2, .length = 150},
-                                                 .margin = 2}));
+    const PlanAnswer answer = take(engine.ask(cpu::Plan{.target = target,
+                                                        .surface = {.entries = 1002, .radius = 80},
+                                                        .obstacles = {&vessels, 1},
+                                                        .needle = {.diameter = 2, .length = 150},
+                                                        .margin = 2}));
     std::size_t safe = 0;
     for (const PlannedPath& path : answer.paths) {
         safe += path.safety == Safety::Safe ? 1 : 0;
@@ -132,17 +129,18 @@ int main() {
     // [scene]
     const ControlPoint points[] = {{40, 0}, {80, 1}}; // of the image's own units
     const cpu::Volume volume = take(cpu::Volume::create(head.view()));
-    const cpu::TransferFunction function = take(cpu::TransferFunction::create({.points = points, .domain = {0, 255}}));
+    const cpu::TransferFunction function = take(cpu::TransferFunction::create({.points = points}));
     const cpu::Mesh scalpel = take(cpu::Mesh::create(take(makeScalpel()).view()));
     const std::vector<Mat4> poses = {translation({0, 0, 150}), translation({0, 0, 120}), translation({0, 0, 85})};
     const cpu::BatchItem item{&scalpel, &volume, &function, poses};
     const cpu::Batch batch{.items = {&item, 1}, .threshold = 0.1};
+    cpu::HostEngine engine = take(cpu::HostEngine::create());
     // [/scene]
-    detect(batch);
-    measure(batch);
-    measureArea(batch);
+    touch(engine, batch);
+    measure(engine, batch);
+    measureArea(engine, batch);
     const std::vector<Mat4> hand = {translation({0, 0, 150}), translation({0, 0, 149}), translation({0, 0, 148})};
     follow(item, hand);
-    move(batch);
-    plan(volume, makeStructure(volume.grid()), {0, 0, 0});
+    move(engine, batch);
+    plan(engine, volume, makeStructure(volume.grid()), {0, 0, 0});
 }

@@ -175,7 +175,7 @@ static void unlock_queue(void* user) {
 static void make_context(detection* d) {
     pl_vulkan vulkan = d->engine->vulkan;
     uint32_t families[8];
-    vxt_context_desc desc = vxt_context_desc_init();
+    vxt_context_desc desc = {.struct_size = sizeof desc};
     desc.get_instance_proc_addr = d->load;
     desc.instance = vulkan->instance;
     desc.physical_device = vulkan->phys_device;
@@ -193,7 +193,7 @@ static void make_context(detection* d) {
 
 /* The engine's own image, as long as the engine has it. */
 static void wrap_volume(detection* d) {
-    vxt_wrapped_volume wrapped = vxt_wrapped_volume_init();
+    vxt_wrapped_volume wrapped = {.struct_size = sizeof wrapped};
     VkImage image = pl_vulkan_unwrap(d->engine->vulkan->gpu, d->engine->volume, &wrapped.format, NULL);
     VkImageViewCreateInfo info = {.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
                                   .image = image,
@@ -211,37 +211,30 @@ static void wrap_volume(detection* d) {
 }
 
 static void upload_the_rest(detection* d) {
-    vxt_queue queue = vxt_queue_init();
-    queue.queue = d->queue;
-    queue.family = d->engine->vulkan->queue_graphics.index;
-    queue.lock = lock_queue;
-    queue.unlock = unlock_queue;
-    queue.user = d->engine;
+    const vxt_queue queue = {.struct_size = sizeof queue,
+                             .queue = d->queue,
+                             .family = d->engine->vulkan->queue_graphics.index,
+                             .lock = lock_queue,
+                             .unlock = unlock_queue,
+                             .user = d->engine};
     const vxt_control_point points[2] = {{120, 0}, {135, 1}};
-    vxt_transfer_function_desc opacity = vxt_transfer_function_desc_init();
-    opacity.points = points;
-    opacity.point_count = 2;
+    const vxt_transfer_function_desc opacity = {.struct_size = sizeof opacity, .points = points, .point_count = 2};
     done(vxt_transfer_function_upload(d->context, &queue, &opacity, NULL, &d->opacity));
-    const float positions[12] = {-2, -2, 0, 2, -2, 0, 2, 2, 0, -2, 2, 0}; /* a plate of 4 mm by 4 mm */
+    const double positions[12] = {-2, -2, 0, 2, -2, 0, 2, 2, 0, -2, 2, 0}; /* a plate of 4 mm by 4 mm */
     const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
-    vxt_mesh_view mesh = vxt_mesh_view_init();
-    mesh.positions = positions;
-    mesh.vertex_count = 4;
-    mesh.indices = indices;
-    mesh.triangle_count = 2;
+    const vxt_mesh_view mesh = {
+        .struct_size = sizeof mesh, .positions = positions, .vertex_count = 4, .indices = indices, .triangle_count = 2};
     done(vxt_mesh_upload(d->context, &queue, &mesh, NULL, &d->mesh));
 }
 
 static void make_detectors(detection* d) {
-    vxt_detector_desc desc = vxt_detector_desc_init();
-    desc.method = vxt_context_default_method(d->context);
+    vxt_detector_desc desc = {.struct_size = sizeof desc, .method = vxt_context_default_method(d->context)};
     done(vxt_detector_create(d->context, &desc, &d->counting));
     desc.method = VXT_METHOD_COMPUTE;
-    desc.projection = VXT_PROJECTION_CONSERVATIVE;
+    desc.projection = VXT_PROJECTION_CERTIFIED;
     desc.filter = VXT_FILTER_EXACT;
     done(vxt_detector_create(d->context, &desc, &d->certified));
-    vxt_results_desc room = vxt_results_desc_init();
-    room.max_pairs = POSES;
+    const vxt_results_desc room = {.struct_size = sizeof room, .max_pairs = POSES};
     for (int i = 0; i < 2; ++i) {
         done(vxt_results_create(d->context, &room, &d->results[i]));
     }
@@ -288,16 +281,13 @@ static void record(detection* d) {
     view.clip_from_world[0] = view.clip_from_world[5] = 0.25;
     view.clip_from_world[10] = 0.1;
     view.clip_from_world[14] = 0.5;
-    vxt_item item = vxt_item_init();
-    item.mesh = d->mesh;
-    item.volume = d->volume;
-    item.transfer_function = d->opacity;
-    item.world_from_object = poses[0];
-    item.pose_count = POSES;
-    vxt_batch batch = vxt_batch_init();
-    batch.items = &item;
-    batch.item_count = 1;
-    batch.view = &view;
+    const vxt_item item = {.struct_size = sizeof item,
+                           .mesh = d->mesh,
+                           .volume = d->volume,
+                           .transfer_function = d->opacity,
+                           .world_from_object = poses[0],
+                           .pose_count = POSES};
+    const vxt_batch batch = {.struct_size = sizeof batch, .items = &item, .item_count = 1, .view = &view};
     VkCommandBufferBeginInfo info = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     vulkan_done(LOAD(d, vkBeginCommandBuffer)(d->commands, &info));
     done(vxt_volume_cmd_update_bricks(d->volume, d->commands, &everything)); /* the engine has changed its image */
@@ -344,19 +334,24 @@ static void submit(detection* d) {
     vulkan_done(LOAD(d, vkWaitSemaphores)(d->engine->vulkan->device, &wait, UINT64_MAX));
 }
 
+static const void* value_of(const vxt_answer* answer, const char* name, size_t pair) {
+    vxt_column column = {.struct_size = sizeof column};
+    done(vxt_answer_find(answer, "pairs", name, &column));
+    return (const char*)column.data + pair * column.stride;
+}
+
 static void detect(detection* d) {
     record(d);
     submit(d);
     vxt_answer* answer;
-    vxt_answer_view counted = vxt_answer_view_init();
     done(vxt_answer_create(&answer));
     done(vxt_results_read(d->results[0], answer));
-    done(vxt_answer_get(answer, &counted));
-    printf("%s: %llu and %llu fragments; ", vxt_method_name(counted.pairs[0].method),
-           (unsigned long long)counted.pairs[0].count, (unsigned long long)counted.pairs[1].count);
+    printf("%s: %llu and %llu fragments; ", vxt_method_name(*(const vxt_method*)value_of(answer, "method", 0)),
+           (unsigned long long)*(const uint64_t*)value_of(answer, "count", 0),
+           (unsigned long long)*(const uint64_t*)value_of(answer, "count", 1));
     done(vxt_results_read(d->results[1], answer));
-    done(vxt_answer_get(answer, &counted));
-    printf("certified: %s and %s\n", counted.pairs[0].hit ? "yes" : "no", counted.pairs[1].hit ? "yes" : "no");
+    printf("certified: %s and %s\n", *(const uint32_t*)value_of(answer, "touch", 0) == 1 ? "yes" : "no",
+           *(const uint32_t*)value_of(answer, "touch", 1) == 1 ? "yes" : "no");
     vxt_answer_destroy(answer);
 }
 

@@ -74,14 +74,14 @@ def flow():
     p.arrow((170, 115), (213, 115))
     p.arrow((365, 115), (408, 115))
     p.box(20, 255, 150, 100, "your renderer", ("images and buffers", "on the device already:", "wrapped, not copied"), "data")
-    p.box(215, 255, 150, 100, "the scene", ("Volume, Mesh, …", "on the device"), code="src/gpu")
+    p.box(215, 255, 150, 100, "the scene", ("Volume, Mesh, …", "on the device"), code="src/vulkan")
     p.arrow((170, 305), (213, 305))
     p.arrow((440, 190), (440, 222), (290, 222), (290, 253), label="cmdUpload()", at=(365, 216), kind="small code faint")
     p.box(410, 255, 165, 100, "a batch", ("meshes, poses, volumes;", "threshold, view"), "data")
     p.arrow((365, 305), (408, 305))
-    p.box(620, 255, 150, 100, "detect", ("records the passes in", "your commands"), code="src/detect")
+    p.box(620, 255, 150, 100, "detect", ("records the passes in", "your commands"), code="src/device")
     p.arrow((575, 305), (618, 305), label="", at=None)
-    p.box(620, 40, 150, 150, "the host engine", ("the same questions,", "the same counts as", "compute, bit for bit;", "no Vulkan"), code="src/cpu")
+    p.box(620, 40, 150, 150, "the host engine", ("the same questions,", "the same counts as", "compute, bit for bit;", "no Vulkan"), code="src/host")
     p.arrow((575, 115), (618, 115))
     p.box(815, 255, 145, 100, "results", ("a device buffer:", "one PairResult for", "each pair, outputs"), "data")
     p.arrow((770, 305), (813, 305))
@@ -126,7 +126,7 @@ def passes():
         (185, "pixels", ("top-left rule", "in integers"), "data", "exact.h"),
         (240, "survives?", ("eight voxels, fp32 additions and", "multiplications in a written order"), "box", "exact.h"),
         (244, "count", ("summed over the work group,", "one addition to the pair"), "ours", "count.glsl")])
-    chain(510, "certified (conservative): no pixel, every voxel cell that a triangle passes through", [
+    chain(510, "certified: no pixel, every voxel cell that a triangle passes through", [
         (160, "clusters, bricks", ("skipped where", "nothing can be opaque"), "box", "certified_cull.comp"),
         (175, "cells", ("listed, where they", "need a decision"), "data", "certified_expand.comp"),
         (190, "bounds", ("the triangle cut to each;", "halved: none, certain, open"), "box", "certified_decide.comp"),

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Draws idea.svg: a volume, a transfer function, and the fragments of a mesh that survive. Everything in the picture is
+"""Draws idea.svg: a volume, a transfer function, and the fragments of a mesh that pass. Everything in the picture is
 computed, the count too. It follows the reader's light or dark scheme. Usage: idea.py > idea.svg"""
 import math
 
@@ -102,8 +102,8 @@ text(6, H * (1 - THRESHOLD) - 7, "threshold &#964;", 14, "hot", "start")
 say(f'<path d="M0,-12 V{H} H{W + 12}" class="line"/>')
 text(W / 2, H + 22, "scalar, in the image's units", 14)
 say(f'<text transform="translate(-12,{H / 2}) rotate(-90)" font-size="14" class="ink" text-anchor="middle">opacity</text>')
-text(W / 2, 258, "edit it, and the next")
-text(W / 2, 278, "answer has seen it")
+text(W / 2, 258, "edit it: the next")
+text(W / 2, 278, "query uses the edit")
 say('</g>')
 
 say('<g transform="translate(650,60)">')
@@ -120,13 +120,13 @@ for row in range(-4, SIDE // FRAGMENT):
         x, y = (column + 0.5) * FRAGMENT, (row + 0.5) * FRAGMENT
         if not inside(x, y):
             continue
-        survives = x >= 0 and opacity(scalar(x, y)) >= THRESHOLD
-        count += survives
-        paint = f'fill="{OPAQUE}"' if survives else f'fill="white" stroke="{BAD}" stroke-width="1.2"'
-        say(f'<circle cx="{x}" cy="{y}" r="{3.8 if survives else 3.1}" {paint}/>')
-text(0, SIDE + 28, f'<tspan class="hot">&#9679;</tspan> in the opaque part: survives', anchor="start")
+        passes = x >= 0 and opacity(scalar(x, y)) >= THRESHOLD
+        count += passes
+        paint = f'fill="{OPAQUE}"' if passes else f'fill="white" stroke="{BAD}" stroke-width="1.2"'
+        say(f'<circle cx="{x}" cy="{y}" r="{3.8 if passes else 3.1}" {paint}/>')
+text(0, SIDE + 28, f'<tspan class="hot">&#9679;</tspan> in the opaque region: passes', anchor="start")
 text(0, SIDE + 48, f'<tspan fill="{BAD}">&#9675;</tspan> transparent or outside: discarded', anchor="start")
-text(12, 26, f"{count} survive: they touch", 15, "mark", "start", "bold")
+text(12, 26, f"{count} pass: the mesh touches", 15, "mark", "start", "bold")
 say('</g>')
 say('</svg>')
 print("\n".join(out))

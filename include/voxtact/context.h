@@ -39,7 +39,7 @@ struct ContextDesc {
     /// queue of another family you record the transfer of ownership, which voxtact does not. Wrapped objects are as you
     /// made them.
     std::span<const std::uint32_t> queueFamilies;
-    /// Of all projections but conservative, which ResultsDesc::clustersAtOnce is for: a draw or a dispatch tests at
+    /// Of all projections but certified, which ResultsDesc::clustersAtOnce is for: a draw or a dispatch tests at
     /// most so many fragments, were each of its triangles as large as the viewport; a batch with more is more draws. At
     /// least a triangle in one view (by `compute`, 64). Never more than 2^22 triangles. Make it less for a GPU whose
     /// driver takes a long draw for a GPU that hangs. 0: 2^34.
@@ -79,7 +79,7 @@ class FeatureRequest {
     VkPhysicalDeviceVulkan13Features vulkan13{}; ///< behind vulkan12; its pNext is yours
 };
 
-/// Whether a counting method can be had.
+/// Whether a counting method is supported.
 struct MethodSupport {
     CountingMethod method; ///< which
     bool available;        ///< whether a Detector can be made for it
@@ -122,9 +122,9 @@ class Context {
 
     /// Every counting method of a device, in the order of their numbers. Valid as long as the Context.
     [[nodiscard]] VOXTACT_API std::span<const MethodSupport> methods() const noexcept;
-    /// Whether a counting method can be had on this device.
+    /// Whether this device supports a counting method.
     [[nodiscard]] VOXTACT_API bool supports(CountingMethod method) const noexcept;
-    /// Whether it can be had in a projection: `conservative` is for `compute` alone, and wants 32-bit floats that keep
+    /// Whether it supports a projection: `certified` is for `compute` alone, and needs 32-bit floats that keep
     /// infinities and NaN and round to the nearest (VkPhysicalDeviceFloatControlsProperties).
     [[nodiscard]] VOXTACT_API bool supports(CountingMethod method, Projection projection) const noexcept;
     /// The exact method that needs least: query, else atomic, else query-any.

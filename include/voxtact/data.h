@@ -40,20 +40,20 @@ using Mat4 = std::array<double, 16>;
 [[nodiscard]] VOXTACT_API Mat4 fromFloats(const float (&columnMajor)[16]) noexcept;
 
 /// Millimetres between voxels, from a picometre to a million kilometres: nothing that a mesh can meet lies beyond.
-inline constexpr double kLeastSpacing = 1e-9;
-inline constexpr double kMostSpacing = 1e12; ///< also of an origin's coordinates, in either direction
+inline constexpr double kMinSpacing = 1e-9;
+inline constexpr double kMaxSpacing = 1e12; ///< also of an origin's coordinates, in either direction
 
 /// Where the voxels of an image are. `direction` holds three columns, the unit vectors (LPS) along the index axes:
 /// component r of axis c is at [3*c + r], as in ITK's direction matrix. It may be oblique; it must not be singular.
 struct Grid {
     std::array<std::uint32_t, 3> size{}; ///< voxels along x, y, z; each at least 1
-    Vec3 spacing{1, 1, 1};               ///< mm; from kLeastSpacing to kMostSpacing
-    Vec3 origin{};                       ///< mm, within kMostSpacing; the *centre* of voxel (0,0,0)
+    Vec3 spacing{1, 1, 1};               ///< mm; from kMinSpacing to kMaxSpacing
+    Vec3 origin{};                       ///< mm, within kMaxSpacing; the *centre* of voxel (0,0,0)
     std::array<double, 9> direction{1, 0, 0, 0, 1, 0, 0, 0, 1}; ///< columns: unit vectors along the index axes
 };
 
-/// Refuses an empty grid, one of more than 2^56 voxels, a spacing outside [kLeastSpacing, kMostSpacing], by itself or
-/// times the length of its direction, an origin farther off than kMostSpacing, a singular or non-finite direction.
+/// Refuses an empty grid, one of more than 2^56 voxels, a spacing outside [kMinSpacing, kMaxSpacing], by itself or
+/// times the length of its direction, an origin farther off than kMaxSpacing, a singular or non-finite direction.
 [[nodiscard]] VOXTACT_API Result<void> checkGrid(const Grid& grid);
 /// From texture space to the world. Expects a grid that checkGrid() accepts.
 [[nodiscard]] VOXTACT_API Mat4 worldFromTexture(const Grid& grid) noexcept;
@@ -69,7 +69,7 @@ enum class ScalarType : std::uint32_t { UInt8, Int16, UInt16, Float32 };
 
 /// 1, 2 or 4.
 [[nodiscard]] VOXTACT_API std::size_t bytesPerVoxel(ScalarType type) noexcept;
-/// "uint8", "int16", "uint16" or "float"; it lives for ever.
+/// "uint8", "int16", "uint16" or "float"; static lifetime.
 [[nodiscard]] VOXTACT_API const char* toString(ScalarType type) noexcept;
 
 /// An image somebody else owns. `voxels` holds voxelCount(grid) scalars of `type`, x fastest, then y, then z, without
@@ -119,47 +119,54 @@ struct ColourPoint {
 /// Entries of a transfer function's table, where nothing else is asked for.
 inline constexpr std::uint32_t kDefaultTableSize = 256;
 /// Entries of a table, at most: floats do not tell more apart.
-inline constexpr std::uint32_t kMostTableSize = 1U << 24U;
+inline constexpr std::uint32_t kMaxTableSize = 1U << 24U;
 inline constexpr double kDefaultThreshold = 0.1; ///< opacity from which a sample is opaque (paper, section 5)
 
-/// Scalar -> opacity, sampled into a table: entry i of `tableSize` holds the opacity at the normalised scalar
-/// s = (i+0.5)/tableSize, where s = (value - domain.lo) / (domain.hi - domain.lo). Between entries: linear. Outside
-/// the domain: the first and the last entry. The look-up coordinate is s itself.
+/// Value -> opacity. Certified questions are decided by the points themselves: a value is opaque if its opacity reaches
+/// the threshold, and at a step (points of equal value) the greatest opacity counts.
+///
+/// For the other projections and for pictures the function is sampled into a table: entry i of `tableSize` holds the
+/// opacity at the normalised scalar s = (i+0.5)/tableSize, where s = (value - domain.lo) / (domain.hi - domain.lo).
+/// Between entries: linear. Outside the domain: the first and the last entry. The look-up coordinate is s itself.
 struct TransferFunctionDesc {
-    std::span<const ControlPoint> points{};      ///< ascending values; piecewise linear between, constant outside
-    ValueRange domain{0, 255};                   ///< lo < hi, and hi - lo finite
-    std::uint32_t tableSize = kDefaultTableSize; ///< entries; 2 to kMostTableSize
+    std::span<const ControlPoint> points{}; ///< ascending values; piecewise linear between, constant outside
+    /// Of the table; lo < hi, and hi - lo finite. {0, 0}: tableDomain().
+    ValueRange domain{0, 0};
+    std::uint32_t tableSize = kDefaultTableSize; ///< entries; 2 to kMaxTableSize
 };
+
+/// Returns the domain of the table: the given one, or one whose first and last entry are at the first and the last
+/// point; around a single value 1/4096 of it to both sides.
+[[nodiscard]] VOXTACT_API ValueRange tableDomain(const TransferFunctionDesc& desc) noexcept;
 
 /// Refuses no points, values not finite or not ascending (equal ones make a step) or too far apart for a difference,
 /// opacities outside [0,1], a domain empty or too wide, a table of fewer than 2 entries, and one of more than
-/// kMostTableSize (LimitExceeded). Returns the table.
+/// kMaxTableSize (LimitExceeded). Returns the table.
 [[nodiscard]] VOXTACT_API Result<std::vector<float>> sampleTable(const TransferFunctionDesc& desc);
 
 /// What a threshold makes of a transfer function and of the values of a volume. Where nothing is opaque nothing
 /// touches, which is a true answer to what was hardly meant.
 struct OpacityFacts {
-    bool reaches = false; ///< some values are opaque by the control points: of at least the threshold
-    bool any = false;     ///< some value of the data is, by the table
-    double spacing = 0;   ///< of the table's entries, in the image's units
-    /// Values that the points make opaque and the table does not, as none of its entries is among them; only where the
-    /// data have values, within the domain, and not of its very ends alone.
-    std::vector<ValueRange> lost{};
+    bool reaches = false; ///< some values are opaque
+    bool any = false;     ///< some value of the data is
+    /// How far the table moves an end of the opaque values that is among the data, in the image's units; infinity where
+    /// its entries pass over all of an interval. Only projections that are not certified look at the table.
+    double moved = 0;
 };
 /// `data`: the least and the largest value, as checkVolume() returns them. Refuses what sampleTable() refuses, data
 /// that are empty or NaN, and a threshold outside [0,1]. O(points + entries log(points)).
 [[nodiscard]] VOXTACT_API Result<OpacityFacts> checkOpacity(const TransferFunctionDesc& desc, const ValueRange& data,
                                                             double threshold = kDefaultThreshold);
 
-/// A triangle mesh somebody else owns, in object space. Three floats per vertex, three indices per triangle.
+/// A triangle mesh somebody else owns, in object space. Three doubles per vertex, three indices per triangle.
 struct MeshView {
-    std::span<const float> positions;       ///< x, y, z of each vertex, object space
+    std::span<const double> positions;      ///< x, y, z of each vertex, object space
     std::span<const std::uint32_t> indices; ///< three per triangle
 };
 
 /// A triangle mesh that owns its arrays.
 struct MeshData {
-    std::vector<float> positions;       ///< x, y, z of each vertex, object space
+    std::vector<double> positions;      ///< x, y, z of each vertex, object space
     std::vector<std::uint32_t> indices; ///< three a triangle
     std::string name;                   ///< the file's name, or the builtin's
     std::vector<std::string> notes;     ///< as in VolumeData
@@ -180,10 +187,17 @@ struct MeshFacts {
     std::uint32_t triangles = 0;  ///< how many, degenerate ones included
     std::uint32_t degenerate = 0; ///< triangles whose area is zero in float: allowed, no pixel of a view is theirs
     Box bounds;                   ///< object space
+    /// Object units: the largest distance between a vertex and the floats that the engines keep of it. These are
+    /// relative to a centre of the mesh's own where it is far from the origin and floats would lose something.
+    /// Certified answers hold for the vertices as they were given.
+    double rounding = 0;
 };
 
-/// Refuses a mesh with no triangle, arrays whose length is not a multiple of three, NaN or infinite vertices and
-/// indices out of range (the first is named). O(vertices + triangles).
+/// Object units, a hundred nanometres at a scale of 1: a larger MeshFacts::rounding is worth a note.
+inline constexpr double kNotedRounding = 1e-4;
+
+/// Refuses a mesh with no triangle, arrays whose length is not a multiple of three, vertices that are NaN, infinite or
+/// beyond the range of floats, and indices out of range (the first is named). O(vertices + triangles).
 [[nodiscard]] VOXTACT_API Result<MeshFacts> checkMesh(const MeshView& mesh);
 
 /// The camera of the projections `view` and `two-view`.
@@ -191,17 +205,6 @@ struct View {
     Mat4 clip_from_world{};     ///< Vulkan clip space; orthographic or perspective; not singular
     std::uint32_t width = 512;  ///< pixels; at least 1, at most what the method can do: Context::maxViewport()
     std::uint32_t height = 512; ///< pixels, likewise
-};
-
-/// A scene in host memory for measuring with: one mesh at some poses against one volume.
-struct MeasureScene {
-    VolumeData volume{};                   ///< what is touched
-    MeshData mesh{};                       ///< what touches
-    std::vector<ControlPoint> points{};    ///< of the transfer function
-    ValueRange domain{};                   ///< of the transfer function
-    std::vector<Mat4> world_from_object{}; ///< the poses; affine
-    View view{};                           ///< for projections with a camera
-    double threshold = kDefaultThreshold;  ///< opacity from which a sample is opaque
 };
 
 /// An orthographic view along world -z (from above, anterior up: world x runs to the left, y down) whose square
@@ -246,6 +249,9 @@ struct LabelData {
 /// Refuses what checkVolume() refuses, float voxels that are not whole numbers within +-2^24, and more than 65536
 /// different labels (LimitExceeded). O(voxels + the labels' range).
 [[nodiscard]] VOXTACT_API Result<LabelData> makeLabels(const VolumeView& volume);
+/// The same of labels of any 32-bit size, x fastest. O(voxels). Refuses what checkGrid() refuses and another number of
+/// labels than the grid has voxels.
+[[nodiscard]] VOXTACT_API Result<LabelData> makeLabels(const Grid& grid, std::span<const std::int32_t> labels);
 
 /// Number of the label of a world point in `values`; that of 0 outside of the grid. The voxel along an axis with n of
 /// them is floor(n * texture coordinate): half way between two centres it is the upper one, and at 1 the last one.

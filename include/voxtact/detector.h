@@ -2,7 +2,6 @@
 #pragma once
 
 #include "voxtact/device_results.h"
-#include "voxtact/motion.h"
 #include "voxtact/results.h"
 #include "voxtact/scene.h"
 
@@ -16,18 +15,17 @@ namespace voxtact {
 struct DetectorImpl;
 struct ResultsImpl;
 
-/// What a Detector is made for. Fixed for its life: each combination is its own set of pipelines, but numbers that are
-/// asked for (a margin, a tolerance, a resolution) are not.
+/// What a Detector is made for. Fixed for its life: each combination is its own set of pipelines.
 struct DetectorDesc {
     CountingMethod method = CountingMethod::Query; ///< how survivors are counted; Cpu is refused: see cpu.h
     Projection projection = Projection::View;      ///< how meshes become fragments
-    Filter filter = Filter::Hardware;              ///< how the image is sampled; Conservative never looks at it
-    Boundary boundary = Boundary::Auto;            ///< the projection conservative always tests the range
+    Filter filter = Filter::Hardware;              ///< how the image is sampled; Certified never looks at it
+    Boundary boundary = Boundary::Auto;            ///< the projection certified always tests the range
     Outputs outputs{};                             ///< in addition to the counts; the Results need room for them
     std::uint32_t samplesPerVoxel = kDefaultSamplesPerVoxel; ///< dominant-axis: along a voxel's side; 1 to 16
-    double resolution = kDefaultResolution;                  ///< conservative, voxels; 2^-12 to 1
-    bool stopAtFirst = false; ///< conservative without outputs: the count is then 0 or 1, its exactness LowerBound
-    /// conservative: what the passes do is counted, for Results::counters(). Costs some atomics per triangle; nothing
+    double resolution = kDefaultResolution;                  ///< certified, voxels; 2^-12 to 1
+    bool stopAtFirst = false; ///< certified without outputs: the count is then 0 or 1, its exactness LowerBound
+    /// certified: what the passes do is counted, for Results::counters(). Costs some atomics per triangle; nothing
     /// where it is not asked for.
     bool counters = false;
     /// dominant-axis: every pixel that a triangle touches gives a fragment, by VK_EXT_conservative_rasterization. Its
@@ -36,60 +34,10 @@ struct DetectorDesc {
     bool overestimate = false;
     /// Batches may have BatchItem::poses. The pass that makes pairs of them is then made, too, and the queue needs
     /// compute in addition to graphics. Poses that the host has become pairs by it as well in Results that are staged,
-    /// where a batch has 256 pairs or more and the device has doubles (shaderFloat64, which must round as the host's);
-    /// the pairs are the same, bit for bit.
+    /// where a batch has 256 pairs or more; the pairs are the same, bit for bit. Unsupported on a device without
+    /// doubles that round as the host's (shaderFloat64, shaderSignedZeroInfNanPreserveFloat64,
+    /// shaderRoundingModeRTEFloat64).
     bool devicePoses = false;
-    /// conservative with stopAtFirst and without outputs: what is asked is whether anything opaque is within so much of
-    /// the mesh's surface; world mm, 0 to 1,000,000. 0 is the touch, by the same programs as without it. `hit` and
-    /// `possible` then say what cpu::ClearanceMeter::within() says, where that and this are sure: what touches is
-    /// within every margin, but a margin of less than about a thousandth of a voxel may leave it *possible*, and where
-    /// a triangle is hundreds of voxels long a larger one may, too. InvalidArgument for what is not a number from 0 to
-    /// 1,000,000, other projections, counts, and outputs.
-    double margin = 0;
-    /// conservative with stopAtFirst, without outputs and without a margin: what is asked is whether anything touches
-    /// at some pose within it; world mm and degrees, a distance from 0 to 1,000,000. `hit` and `possible` say what
-    /// cpu::MotionChecker::around() says, where that and this are sure. A *no* of one is never a *yes* of the other.
-    /// This one proves a *yes* by the pose itself, or by a point of the mesh that such a pose brings to something
-    /// opaque, or into it where the distance is less than some thousandths of a voxel. InvalidArgument for a distance
-    /// or an angle out of range, other projections, counts, outputs, and a margin above 0.
-    std::optional<PoseTolerance> poseTolerance = std::nullopt;
-    /// conservative without outputs and without a margin: after the touch, how near each pair is, for Results that were
-    /// made with ResultsDesc::clearances. The bounds are proven: they always overlap those that cpu::ClearanceMeter has
-    /// of the same pair. They are as near to each other as the tolerance asks where single precision can tell: not
-    /// nearer than some thousandths of a voxel, and less near where a triangle is many dozens of voxels long or some
-    /// hundred voxels away; ClearanceEnd says so. They differ a little from run to run, and still overlap.
-    /// InvalidArgument for a tolerance that is not a number from 1e-6 mm on, a maximum that is not above 0, other
-    /// projections, outputs, a margin above 0, and a pose tolerance.
-    std::optional<ClearanceSearch> clearance = std::nullopt;
-    /// With `clearance`: two points that prove each upper bound, as a cpu::ClearanceMeter has them, for Results that
-    /// were made with ResultsDesc::closest. They are no farther apart than `hi` and no nearer than `lo`, in single
-    /// precision: see ClosestResult. Which of several pairs of points it is may differ from run to run. Costs a look at
-    /// where it touches, of pairs that do, and little of the others; nothing where it is not asked for. InvalidArgument
-    /// without `clearance`.
-    bool closest = false;
-    /// With `clearance`: the same bounds to each label of Batch::labels as well, as a cpu::ClearanceMeter has them by
-    /// measureLabels(), for Results that were made with ResultsDesc::labelClearances. Of what is opaque and has the
-    /// label, which fills the closed boxes around its voxels' centres: a face between two labels belongs to both. What
-    /// is said of `clearance` holds of these bounds; of a label that is touched `lo` is 0 and `hi` within the
-    /// tolerance, mostly some ten-thousandths of a voxel. Each label is a search of its own, recorded behind the
-    /// others; its passes are programs of their own, and what does not ask for them costs nothing more. InvalidArgument
-    /// without `clearance`; Unsupported on a device without room for the descriptors (maxBoundDescriptorSets 5,
-    /// maxPerStageDescriptorStorageBuffers 7).
-    bool labelClearances = false;
-    /// With `labelClearances`: of all that has the label, be it opaque or not; but of what is no number, nothing.
-    /// InvalidArgument without it.
-    bool labelsAtAnyOpacity = false;
-    /// conservative with stopAtFirst, without outputs and without another question: the way from each pose of an item
-    /// to the next, as a cpu::MotionChecker has it, for Results that were made with ResultsDesc::motions. What is said
-    /// to be free is proven free at all of its poses, and a touch by the certified test; the pair of a pose has what
-    /// its segment has: `hit`, or `possible`. That of an item's last pose has neither. In single precision it may be a
-    /// hundredth of a voxel or two from what is free to a touch, whatever the resolution, more where triangles are many
-    /// dozens of voxels long; and no piece of a way is shorter than 2^-22 of it. What is nearer grazes. A search is
-    /// recorded whole: some steps for each halving of the longest way of an item down to the resolution, and for each
-    /// of its stretches of 8 voxels; where that is not enough, the end is Budget. Poses are the host's, and meshes such
-    /// that it knows their vertices. InvalidArgument for a resolution that is not a number from 1e-6 mm on, other
-    /// projections, counts, outputs, and a margin, pose tolerance or clearance.
-    std::optional<MotionSearch> motion = std::nullopt;
 };
 
 /// One mesh at some poses against one volume under one transfer function.
@@ -98,11 +46,11 @@ struct BatchItem {
     const Volume* volume = nullptr; ///< what is touched
     const TransferFunction* transferFunction = nullptr; ///< what of it is opaque
     std::span<const Mat4> world_from_object{};          ///< a pose a pair; affine. Read while recording only
-    /// For the outputs contacts (optional) and labels, and for clearances to labels, on the grid of the volume.
+    /// For the outputs contacts (optional) and labels.
     const LabelMap* labels = nullptr;
-    /// Poses on the device, in place of world_from_object, which is then empty; for detectors with devicePoses. A pose
-    /// that is not finite, or whose last row is not 0 0 0 1, is not looked at: its count is 0, its exactness Refused,
-    /// and by the projection `conservative` it is *possible*.
+    /// Poses on the device, instead of world_from_object, which is then empty; for detectors with devicePoses. A pose
+    /// that is not finite, or whose last row is not 0 0 0 1, is not examined: its count is 0, its exactness Refused,
+    /// and by the projection `certified` it is *possible*.
     const PoseBuffer* poses = nullptr;
     std::optional<std::uint32_t> poseCount = std::nullopt; ///< of `poses`, the first so many; nothing: all
 
@@ -113,11 +61,8 @@ struct BatchItem {
 /// The pairs of one submission: the items in order, each with its poses in order.
 struct Batch {
     std::span<const BatchItem> items{};   ///< any number; results are in their order
-    View view{};                          ///< not looked at by projections without a camera
+    View view{};                          ///< not examined by projections without a camera
     double threshold = kDefaultThreshold; ///< 0..1
-    /// With DetectorDesc::labelClearances: which labels, at most kMostMeasuredLabels, in any order. One that an item's
-    /// label map does not have is infinitely far from it. Read while recording only.
-    std::span<const std::int32_t> labels{};
 };
 
 /// Contacts that a list has room for, where nothing else is asked for.
@@ -145,7 +90,7 @@ struct ResultsDesc {
     bool timestamps = false;    ///< cmdDetect() writes a timestamp before and after its work, read by gpuMilliseconds()
     std::uint32_t queueFamily = 0; ///< with timestamps: of the queue that will execute; refused where it has none
     std::optional<OutputRoom> room = std::nullopt; ///< nothing: for detectors without outputs
-    /// Clusters of 64 triangles, once a pair, that a dispatch of the projection conservative looks at, at most; a
+    /// Clusters of 64 triangles, once a pair, that a dispatch of the projection certified looks at, at most; a
     /// batch of more is more dispatches. For each, one looks at 2^16 bricks and cells of large triangles at most, and
     /// for all together at 3.5e9; but a cluster of one pair is never cut, and of a mesh of which the host knows no
     /// vertex (wrapped, or after Mesh::cmdCopy()) only the clusters are bounded. Where such a mesh has so many huge
@@ -153,24 +98,10 @@ struct ResultsDesc {
     /// left undecided: the answer is then possible. No other answer depends on it. 16 to 262144, as many as
     /// a GPU can do before its driver takes it for stuck; each takes 721 bytes of device memory. 0: none, for Results
     /// for other projections. Nothing: by maxPairs, 2048 to 16384, or more where the device's maxComputeWorkGroupCount
-    /// allows for it, the queues take no more than a 128th of its memory, and there is no room for clearances or
-    /// motions. In any case fewer where its maxComputeWorkGroupCount (16384 for each 65535 along x) or
-    /// maxStorageBufferRange has no room for so many.
+    /// allows for it and the queues take no more than a 128th of its memory. In any case fewer where its
+    /// maxComputeWorkGroupCount (16384 for each 65535 along x) or maxStorageBufferRange has no room for so many.
     std::optional<std::uint32_t> clustersAtOnce = std::nullopt;
-    /// For detectors with DetectorDesc::clearance: 68 bytes of device memory per pair, 16 of the host's where there is
-    /// a copy, and 648 bytes more for each of clustersAtOnce. They take the queues of the projection conservative.
-    bool clearances = false;
-    /// For detectors with DetectorDesc::closest, in addition to `clearances`, without which it is refused: 48 bytes per
-    /// pair, of the device's memory and of the host's.
-    bool closest = false;
-    /// For detectors with DetectorDesc::labelClearances, in addition to `clearances`, without which it is refused: how
-    /// many labels there is room for, with each of maxPairs; at most kMostMeasuredLabels. 16 bytes each, of the
-    /// device's memory and of the host's.
-    std::uint32_t labelClearances = 0;
-    /// For detectors with DetectorDesc::motion: 1308 bytes of device memory per pair, 32 of the host's where there is a
-    /// copy, and 648 bytes more for each of clustersAtOnce.
-    bool motions = false;
-    /// What the host makes of poses goes through mapped memory of the Results, 248 bytes per pair, in place of the
+    /// What the host makes of poses goes through mapped memory of the Results, 248 bytes per pair, instead of the
     /// command buffer. Recording a batch of thousands of pairs then takes a fraction of the time with drivers that are
     /// slow to write into command buffers, as NVIDIA's is; by a detector with devicePoses it is the poses themselves,
     /// which is several times faster still. In exchange a batch may be recorded only when the submission of the one
@@ -200,7 +131,7 @@ struct ResultsDesc {
 class Results {
   public:
     /// Allocates the buffers. Refuses zero pairs, more pairs than the device's limits allow, counting the queues where
-    /// they, clearances or motions are asked for (LimitExceeded: which limit, how large),
+    /// they are asked for (LimitExceeded: which limit, how large),
     /// timestamps on a queue family that has none, and an `into` that is too small or begins where no descriptor may.
     [[nodiscard]] VOXTACT_API static Result<Results> create(const Context& context, const ResultsDesc& desc);
     VOXTACT_API Results(Results&&) noexcept;
@@ -238,22 +169,6 @@ class Results {
     /// begin after as many as the pairs before it have labels.
     [[nodiscard]] VOXTACT_API BufferRange labelCounts() const noexcept;
 
-    /// Of a batch of a detector with DetectorDesc::clearance: a ClearanceResult of device_results.h for each pair, in
-    /// their order; ready for readers when pairResults() are. A part of a buffer with the usage STORAGE_BUFFER |
-    /// TRANSFER_SRC | TRANSFER_DST; null without ResultsDesc::clearances.
-    [[nodiscard]] VOXTACT_API BufferRange clearances() const noexcept;
-    /// The same of a detector with DetectorDesc::closest: a ClosestResult for each pair. Null without
-    /// ResultsDesc::closest.
-    [[nodiscard]] VOXTACT_API BufferRange closest() const noexcept;
-    /// The same of a detector with DetectorDesc::labelClearances: a ClearanceResult for each label of each pair, pair
-    /// by pair, in the order of Batch::labels; those of a pair begin after as many as the pairs before it have. Null
-    /// without ResultsDesc::labelClearances.
-    [[nodiscard]] VOXTACT_API BufferRange labelClearances() const noexcept;
-
-    /// The same of a detector with DetectorDesc::motion: a MotionResult for each pair, of the way from its pose to the
-    /// next. Null without ResultsDesc::motions.
-    [[nodiscard]] VOXTACT_API BufferRange motions() const noexcept;
-
     /// Records a copy of the results to host memory, the outputs among them. Call it after cmdDetect(), outside a
     /// render pass.
     ///   expects  the results as cmdDetect() leaves them
@@ -266,23 +181,6 @@ class Results {
     /// Unpacks the host copy of the outputs of the batch recorded last: everything of a BatchAnswer but its pairs and
     /// times. What its detector was not made for is left empty. The same is expected as by read().
     [[nodiscard]] VOXTACT_API Result<void> readOutputs(BatchAnswer& answer);
-    /// Whether the batch recorded last is of a detector with DetectorDesc::clearance.
-    [[nodiscard]] VOXTACT_API bool measured() const noexcept;
-    /// The clearances of the batch recorded last, unpacked, with the closest points where its detector was made with
-    /// DetectorDesc::closest. The same is expected as by read(); NotReady where its detector was made without
-    /// DetectorDesc::clearance.
-    [[nodiscard]] VOXTACT_API Result<std::vector<PairClearance>> readClearances();
-    /// Whether the batch recorded last is of a detector with DetectorDesc::labelClearances.
-    [[nodiscard]] VOXTACT_API bool measuredLabels() const noexcept;
-    /// The clearances to labels of the batch recorded last, unpacked: by pair, then in the order of Batch::labels. The
-    /// same is expected as by read(); NotReady where its detector was made without DetectorDesc::labelClearances.
-    [[nodiscard]] VOXTACT_API Result<std::vector<LabelClearance>> readLabelClearances();
-    /// Whether the batch recorded last is of a detector with DetectorDesc::motion.
-    [[nodiscard]] VOXTACT_API bool moved() const noexcept;
-    /// The motions of the batch recorded last, unpacked: of each item's poses but its last, in their order. The pose of
-    /// a touch is to the last bit the one that was looked at. The same is expected as by read(); NotReady where its
-    /// detector was made without DetectorDesc::motion.
-    [[nodiscard]] VOXTACT_API Result<std::vector<SegmentMotion>> readMotions();
     /// Whether the batch recorded last is of a detector with DetectorDesc::counters.
     [[nodiscard]] VOXTACT_API bool counted() const noexcept;
     /// What the passes did, of a detector with DetectorDesc::counters. The same is expected as by read(); NotReady
@@ -317,7 +215,7 @@ class ResultRing {
     /// recorded. The caller knows that frame `frame - frames()` has completed. Frames ascend; claiming one that is
     /// older than its slot's is refused.
     [[nodiscard]] VOXTACT_API Result<Results*> begin(std::uint64_t frame);
-    /// The slot of a completed frame, to read whatever its Results have: clearances, counters, times. NotReady when it
+    /// The slot of a completed frame, to read whatever its Results have: counters, times. NotReady when it
     /// was never used, or has been taken by a later frame. Lives as long as the ring does, and is the next frame's from
     /// the begin() of that on.
     [[nodiscard]] VOXTACT_API Result<Results*> results(std::uint64_t frame);
@@ -367,13 +265,11 @@ class Detector {
     ///   bound state      lost: graphics pipeline, descriptor sets 0..2 of the graphics bind point (0..3 with
     ///                    dominant-axis, 0..4 with outputs), push constants, vertex binding 0, index buffer, dynamic
     ///                    viewport and scissor; for the method compute instead, and with devicePoses as well: compute
-    ///                    pipeline, descriptor sets 0..3 of the compute bind point (0..4 with outputs or
-    ///                    labelClearances), push constants
+    ///                    pipeline, descriptor sets 0..3 of the compute bind point (0..4 with outputs), push
+    ///                    constants
     ///
     /// With outputs, batches are refused that the Results have no room for (the list of contacts is cut instead), and
-    /// with the output labels, items without a label map. With labelClearances these are refused, too, label maps that
-    /// are not on the grid of the volume (Unsupported), and more than kMostMeasuredLabels labels (LimitExceeded). The
-    /// Results keep what readOutputs() and readLabelClearances() need of the batch.
+    /// with the output labels, items without a label map. The Results keep what readOutputs() needs of the batch.
     ///
     /// On error nothing useful was recorded, and the command buffer must not be submitted.
     VOXTACT_API Result<void> cmdDetect(VkCommandBuffer commandBuffer, const Batch& batch, Results& results) const;
@@ -433,25 +329,5 @@ struct SelfTestVerdict {
 /// only a lost device fails the call.
 [[nodiscard]] VOXTACT_API Result<std::vector<SelfTestVerdict>>
 selfTest(const Context& context, const QueueAccess& queue, std::span<const CountingMethod> methods = {});
-
-/// What measureMethods() measures.
-struct MeasureDesc {
-    const MeasureScene* scene = nullptr;          ///< must be given; makeMeasureScene() of voxtact::samples makes one
-    std::span<const CountingMethod> methods = {}; ///< empty: all that the Context knows
-    std::optional<Filter> filter = std::nullopt;  ///< nothing: defaultFilter() of each
-    std::uint32_t repetitions = 5;                ///< at most; fewer for a method that takes long
-};
-
-/// How fast one counting method is.
-struct MethodSpeed {
-    SelfTestVerdict verdict;   ///< only trusted methods are measured
-    double pairsPerSecond = 0; ///< wall clock, median of the repetitions; 0 where it was not measured
-};
-
-/// Runs selfTest(), and then the scene by each method that it trusts, all poses in one submission that is waited for.
-/// What the numbers are good for is choosing between the methods on this device; the choice is the caller's. Blocks:
-/// the making of pipelines, and at most about 0.2 s a method unless one batch takes longer.
-[[nodiscard]] VOXTACT_API Result<std::vector<MethodSpeed>>
-measureMethods(const Context& context, const QueueAccess& queue, const MeasureDesc& desc = {});
 
 } // namespace voxtact

@@ -15,7 +15,7 @@ namespace voxtact {
 #endif
 
 /// The answer for one pair, 24 bytes, the same layout for every counting method. In GLSL declare the buffer with
-/// std430. The pair collides when countLow or countHigh is not zero. In the projection `conservative` a survivor is a
+/// std430. The pair collides when countLow or countHigh is not zero. In the projection `certified` a survivor is a
 /// triangle that certainly has an opaque point in a voxel cell, counted once for each of its cells; a pair whose count
 /// is zero may still touch when VOXTACT_HOW_UNDECIDED(how) is not zero.
 struct PairResult {
@@ -33,7 +33,7 @@ struct PairResult {
 #define VOXTACT_HOW_METHOD(how) ((how)&0xffu)
 #define VOXTACT_HOW_PROJECTION(how) (((how) >> 8) & 0xffu)
 #define VOXTACT_HOW_EXACTNESS(how) (((how) >> 16) & 0xffu)
-/// Not zero: some fragment of the projection `conservative` could be neither proven nor excluded.
+/// Not zero: some fragment of the projection `certified` could be neither proven nor excluded.
 #define VOXTACT_HOW_UNDECIDED(how) (((how) >> 24) & 1u)
 #define VOXTACT_HOW_UNDECIDED_BIT 0x1000000u
 /// VOXTACT_HOW_EXACTNESS() of a pose on the device that cannot be used.
@@ -55,79 +55,23 @@ struct ContactResult {
     VOXTACT_UINT label;    ///< number of the label in LabelData::values; 0 without a label map
 };
 
-/// How near one pair is, of a detector with DetectorDesc::clearance, or one label of it, with
-/// DetectorDesc::labelClearances: what is opaque is then what of it has the label. 16 bytes, std430. Rounding is
-/// counted in.
-struct ClearanceResult {
-    float lo;              ///< world mm: nothing opaque is nearer; infinite where nothing is opaque
-    float hi;              ///< world mm: something opaque is as near; infinite where that is not known
-    VOXTACT_UINT end;      ///< VOXTACT_CLEARANCE_*: why they are no nearer to each other
-    VOXTACT_UINT reserved; ///< 0
-};
-
-/// Two points that prove ClearanceResult::hi, of a detector with DetectorDesc::closest; 48 bytes, std430. All in single
-/// precision: `way` is as long as the distance is, to some millionths of itself and of a voxel; where things are in the
-/// world, to some ten-millionths of the largest coordinate. Of a touch the point is as near to its triangle as a
-/// Contact of results.h is. How the distance changes with the pose follows from it: with u = -way / length(way), by u
-/// for each mm that the mesh is moved, and by cross(arm, u) for each radian that it is turned about the object's
-/// origin.
-struct ClosestResult {
-    float x;               ///< the point on the triangle, world mm
-    float y;               ///< the point on the triangle
-    float z;               ///< the point on the triangle
-    VOXTACT_UINT triangle; ///< number in the mesh
-    float wayX;            ///< from that point to the opaque one, world mm; 0 where the pair touches
-    float wayY;            ///< from that point to the opaque one
-    float wayZ;            ///< from that point to the opaque one
-    VOXTACT_UINT some;     ///< 1; where `hi` is infinite 0, and so is all the rest
-    float armX;            ///< from the object's origin to the point on the triangle, world mm
-    float armY;            ///< from the object's origin to the point on the triangle
-    float armZ;            ///< from the object's origin to the point on the triangle
-    VOXTACT_UINT reserved; ///< 0
-};
-
-// ClearanceResult.end, the numbers being those of ClearanceEnd in clearance.h.
-#define VOXTACT_CLEARANCE_CLOSED 0u
-#define VOXTACT_CLEARANCE_BEYOND 1u
-#define VOXTACT_CLEARANCE_ROUNDED 2u
-#define VOXTACT_CLEARANCE_BUDGET 3u
-
-/// What was found on the way from one pose to the next, of a detector with DetectorDesc::motion; 32 bytes, std430.
-/// Parameters are exact: whole numbers over a power of two. See SegmentMotion in motion.h. Of the last pose of an item,
-/// with which no segment begins, `freeUntil` is 1.
-struct MotionResult {
-    float freeUntil;       ///< certainly no pose from 0 to this parameter touches
-    float touchAt;         ///< the parameter of a pose that certainly does; infinite where none was found
-    VOXTACT_UINT end;      ///< VOXTACT_MOTION_*: why no more is said
-    VOXTACT_UINT triangle; ///< that touches: number in the mesh
-    float x;               ///< where, world mm; to some ten-millionths of the largest coordinate
-    float y;               ///< where, world mm
-    float z;               ///< where, world mm
-    VOXTACT_UINT reserved; ///< 0
-};
-
-// MotionResult.end, the numbers being those of MotionEnd in motion.h.
-#define VOXTACT_MOTION_DECIDED 0u
-#define VOXTACT_MOTION_GRAZES 1u
-#define VOXTACT_MOTION_BUDGET 2u
-
-/// What the passes of the projection `conservative` by `compute` did for a batch; 152 bytes, std430. They are described
+/// What the passes of the projection `certified` by `compute` did for a batch; 152 bytes, std430. They are described
 /// in the manual, "The certified engine on a device". Of each peak: in the round that had most.
 struct CertifiedCounters {
-    VOXTACT_TOTAL clusters;     ///< of 64 triangles, once for each pair, that were looked at
+    VOXTACT_TOTAL clusters;     ///< of 64 triangles, once for each pair, that were examined
     VOXTACT_TOTAL clustersKept; ///< of these, may touch
     VOXTACT_TOTAL runsKept;     ///< of 16 triangles, may touch
     VOXTACT_TOTAL largeParts;   ///< shares of triangles with more than 27 cells
-    VOXTACT_TOTAL bricksSeen;   ///< of these triangles, looked at
-    VOXTACT_TOTAL cellsSeen;    ///< of all triangles in bricks that may be opaque, looked at
+    VOXTACT_TOTAL bricksSeen;   ///< of these triangles, examined
+    VOXTACT_TOTAL cellsSeen;    ///< of all triangles in bricks that may be opaque, examined
     VOXTACT_TOTAL cellsListed;  ///< of these, need a decision
     VOXTACT_TOTAL cellsCertain; ///< of cellsSeen, count without one: opaque all over, and a triangle clearly in them
     VOXTACT_TOTAL cellsDecided; ///< by a lane each; the others are of pairs that touch anyway, or had no room
     VOXTACT_TOTAL lanes;        ///< dispatched for them
     VOXTACT_TOTAL cellsOpen;    ///< of these, left undecided by single precision
     VOXTACT_TOTAL left;         ///< what a queue had no room for: shares of work groups
-    VOXTACT_TOTAL bricksLeft;   ///< looked at for these
-    VOXTACT_TOTAL cellsLeft;    ///< looked at for these, and decided where they need it
+    VOXTACT_TOTAL bricksLeft;   ///< examined for these
+    VOXTACT_TOTAL cellsLeft;    ///< examined for these, and decided where they need it
     VOXTACT_UINT rounds;        ///< dispatches of each pass
     VOXTACT_UINT room;          ///< clusters that a round can have: ResultsDesc::clustersAtOnce
     VOXTACT_UINT mostClusters;  ///< peak of clustersKept
@@ -150,9 +94,6 @@ static_assert(sizeof(PairResult) == 24);
 static_assert(offsetof(PairResult, countLow) == 0 && offsetof(PairResult, countHigh) == 4,
               "a 64-bit query result is copied over countLow and countHigh");
 static_assert(sizeof(ContactResult) == 48);
-static_assert(sizeof(ClearanceResult) == 16);
-static_assert(sizeof(ClosestResult) == 48);
-static_assert(sizeof(MotionResult) == 32);
 static_assert(sizeof(CertifiedCounters) == 152);
 } // namespace voxtact
 #endif

@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "voxtact/version.h"
+
+#if __cplusplus < 202002L && !(defined(_MSVC_LANG) && _MSVC_LANG >= 202002L)
+#error "voxtact needs C++20: -std=c++20, or target_compile_features(... cxx_std_20)"
+#endif
+
 #include <cstdint>
 #include <string>
 #include <type_traits>
 #include <utility>
 #include <variant>
 
-/// VOXTACT_API marks what a shared build exports. Everything else is hidden.
+/// VOXTACT_API marks what a shared build exports. Everything else is hidden, and so is all of a static build, whose
+/// users have VOXTACT_STATIC from its packages: a shared library that it is linked into does not export it again.
 #if defined(_WIN32) && defined(VOXTACT_EXPORTS)
 #define VOXTACT_API __declspec(dllexport)
-#elif defined(_WIN32)
+#elif defined(_WIN32) || defined(VOXTACT_STATIC)
 #define VOXTACT_API
 #else
 #define VOXTACT_API __attribute__((visibility("default")))

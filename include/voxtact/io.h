@@ -29,44 +29,70 @@ using ReadProgress = std::function<bool(std::uint64_t done, std::uint64_t all)>;
 struct VolumeReadOptions {
     /// Which image of a 4D NIfTI file, counted from 0. A file that holds several is refused without it; of another file
     /// only 0 is there, and of a folder none.
-    std::optional<std::uint32_t> frame;
+    std::optional<std::uint32_t> frame{};
     /// SeriesInstanceUID of the series of a DICOM folder. A folder that holds several is refused without it, and a file
     /// with it. Empty: the only one.
     std::string series{}; // the initialisers let {.frame = 3} compile without a warning
     /// Must not throw. Empty: nobody. Not called for bytes in memory.
     ReadProgress progress{};
+    /// Grid of the image that the contours of an RTSTRUCT belong to; only readLabels() uses it.
+    std::optional<Grid> grid{};
 };
 
 /// Degrees by which an sform of NIfTI may be sheared: what is sheared by more comes from a registration, and places the
 /// voxels in a template, not in the patient.
-inline constexpr double kMostShear = 0.1;
+inline constexpr double kMaxShear = 0.1;
 /// Degrees: how far two of the axes are from a right angle, at most. Expects a grid that checkGrid() accepts.
 [[nodiscard]] VOXTACT_API double shearDegrees(const Grid& grid) noexcept;
 /// The note of a volume whose axes are not at right angles, to more than a hundredth of a degree; otherwise empty.
 [[nodiscard]] VOXTACT_API std::string shearNote(const Grid& grid);
 
 /// NIfTI-1 and -2 (.nii, .hdr/.img, each also with .gz; Analyze 7.5 pairs too), NRRD (.nrrd, .nhdr), MetaImage (.mha,
-/// .mhd), or a folder with one DICOM series: one slice a file, or enhanced multi-frame. World is LPS, in millimetres;
-/// left-handed directions are kept. Voxels keep their type where it is one of ScalarType; other integers become int16,
-/// else uint16, else float when every voxel survives exactly (refused otherwise), and double becomes float; both are
-/// said in `notes`, and so is what a file does not say and is assumed. NIfTI's slope and intercept and DICOM's rescale
-/// are applied, which may make floats.
+/// .mhd), or a folder with one DICOM series: one slice a file, enhanced multi-frame, or a dose in frames. World is LPS,
+/// in millimetres; left-handed directions are kept. Voxels keep their type where it is one of ScalarType; other
+/// integers become int16, else uint16, else float when every voxel survives exactly (refused otherwise), and double
+/// becomes float; both are said in `notes`, and so are what a file does not say and is assumed, data behind the stated
+/// voxels, and files of a DICOM folder that are left out. NIfTI's slope and intercept and DICOM's rescale and dose
+/// scaling are applied, which may make floats.
 ///
 /// NIfTI: the place is that of nibabel's `affine`: the sform, else the qform, else the centre; a qform that differs
-/// from the sform is noted, and an sform with a shear of more than kMostShear is refused. Lengths in metres and
+/// from the sform is noted, and an sform with a shear of more than kMaxShear is refused. Lengths in metres and
 /// micrometres become millimetres. NRRD and MetaImage: shears are kept, and noted.
 ///
 /// Refuses 2D, 4D with more than one image unless it is chosen, RGB, complex and vector images, empty images, NaN and
 /// infinite voxels (the first is named), places that are not finite, singular directions, truncated and damaged files
-/// (checksums of compressed data are verified), voxels as text or spread over several files, and DICOM folders with
-/// several series unless one is chosen, fewer than 2 slices, missing slices, uneven gaps, and a tilted gantry.
-/// Memory is bounded by what the file holds, whatever its header claims; compressed, deflate packs up to 1032 bytes
-/// into one.
+/// (checksums of compressed data are verified), and DICOM folders with several series unless one is chosen, fewer than
+/// 2 slices, missing slices, uneven gaps, a tilted gantry, mosaics, and files that end in .dcm and are none. Memory is
+/// bounded by what the file holds, whatever its header claims; compressed, deflate packs up to 1032 bytes into one.
 [[nodiscard]] VOXTACT_API Result<VolumeData> readVolume(const std::filesystem::path& path,
                                                         const VolumeReadOptions& options = {});
 /// The same from one file's bytes in memory; the ending of `name` says the format.
 [[nodiscard]] VOXTACT_API Result<VolumeData> readVolume(std::string_view name, std::span<const std::byte> content,
                                                         const VolumeReadOptions& options = {});
+
+/// The name of a label of a label map.
+struct LabelName {
+    std::int32_t label = 0; ///< its number in the map
+    std::string name;       ///< its name
+};
+
+/// A label map of a file.
+struct LabelFile {
+    LabelData labels;               ///< in millimetres in LPS, as VolumeData has it
+    std::vector<std::string> notes; ///< as in VolumeData
+    std::vector<LabelName> names;   ///< that a segmentation states; empty for other files
+};
+/// The files of readVolume() as a label map: makeLabels(). Integers of 32 and 64 bits, and doubles, are taken as they
+/// are stored, where readVolume() makes floats of them. Refuses labels beyond an int32.
+///
+/// Reads segmentations too: 3D Slicer's (.seg.nrrd), whose layers become one map with a note; a DICOM file of the class
+/// SEG, on its own grid (places without a frame are empty, fractions of a half or more are inside); and RTSTRUCT, whose
+/// closed planar contours are filled in the slices of `options.grid` at voxel centres, by the even-odd rule. Refuses
+/// segments that overlap, with the names of two, uneven slices, and contours that are in no slice.
+[[nodiscard]] VOXTACT_API Result<LabelFile> readLabels(const std::filesystem::path& path,
+                                                       const VolumeReadOptions& options = {});
+/// True if readLabels() needs the grid of an image for this path: an RTSTRUCT. False for what cannot be read.
+[[nodiscard]] VOXTACT_API bool holdsContours(const std::filesystem::path& path);
 
 /// NIfTI-1 (.nii, .nii.gz), NRRD (.nrrd) or MetaImage (.mha), by the ending. Written to a temporary name and renamed.
 /// NRRD and MetaImage keep the grid to the last bits; NIfTI holds it in single precision, as sform and qform. Refuses
@@ -79,24 +105,31 @@ VOXTACT_API Result<void> writeVolume(std::ostream& out, const std::filesystem::p
 /// What the coordinates of a mesh file mean.
 enum class MeshSpace { LPS, RAS };
 
-/// What the numbers of a mesh file mean; the files themselves do not say.
+/// What the numbers of a mesh file mean.
 struct MeshReadOptions {
-    MeshSpace space = MeshSpace::LPS; ///< RAS: x and y are negated
-    double scale = 1;                 ///< millimetres in a unit of the file; positive
+    /// RAS: x and y are negated. Empty: what a header of STL, OBJ, PLY or VTK says (`SPACE=RAS`, as 3D Slicer writes
+    /// it),
+    /// else LPS. A header that says another one is refused.
+    std::optional<MeshSpace> space{};
+    double scale = 1; ///< millimetres in a unit of the file; positive
 };
 
-/// STL (ascii, binary), OBJ, PLY (ascii, binary of either byte order), OFF, glTF 2, GLB, by the ending in any case.
-/// Node transforms are applied (a mirrored node's triangles are turned, so that outward stays outward), and so are
-/// skins and morph targets as they stand in the file; animations are left out. Polygons are cut into triangles: a fan
-/// around the first corner where that stays inside, else ear by ear. All meshes of a file become one; points and lines
-/// are left out. What is left out or chosen is said in `notes`. Corners with bit-identical positions are merged (-0 is
-/// 0), vertices that no triangle uses are left out, degenerate triangles stay, in the order of the file. Coordinates
-/// are the floats nearest to what the file says, scaled in double precision. The file is read strictly: what is not
-/// understood is refused. So are files without a triangle, NaN or infinite vertices and such as no float holds, indices
-/// out of range, malformed numbers, truncated files and files that go on after what their header states, polygons that
-/// cross themselves, OBJ with curved surfaces or weights other than 1, PLY with triangle strips, glTF that requires an
-/// extension other than KHR_mesh_quantization and those about looks and lights, and a scale that is not positive and
-/// finite.
+/// The note of a mesh whose MeshFacts::rounding is more than kNotedRounding; otherwise empty.
+[[nodiscard]] VOXTACT_API std::string roundingNote(const MeshFacts& facts);
+
+/// STL (ascii, binary), OBJ, PLY (ascii, binary of either byte order), OFF, VTK's PolyData (.vtk, .vtp), glTF 2, GLB,
+/// by the ending in any case. Node transforms are applied (a mirrored node's triangles are turned, so that outward
+/// stays outward), and so are skins and morph targets as they stand in the file; animations and hidden nodes are left
+/// out. Polygons are cut into triangles: a fan around the first corner where that stays inside, else ear by ear. All
+/// meshes of a file become one; points and lines are left out. What is left out or chosen is said in `notes`. Corners
+/// with bit-identical positions are merged (-0 is 0), vertices that no triangle uses are left out, degenerate triangles
+/// stay, in the order of the file. Coordinates are doubles from the file on; what single precision loses of them is
+/// noted. The file is read strictly: what is not understood is refused. So are files without a triangle, NaN or
+/// infinite vertices and such as no float holds, indices out of range, malformed numbers, truncated files and files
+/// that go on after what their header states (zeros and white space are noted), polygons that cross themselves, OBJ
+/// with curved surfaces or weights other than 1, VTK files of other datasets, glTF that requires an extension other
+/// than KHR_mesh_quantization, KHR_node_visibility and those about looks and lights, and a scale that is not positive
+/// and finite.
 [[nodiscard]] VOXTACT_API Result<MeshData> readMesh(const std::filesystem::path& path,
                                                     const MeshReadOptions& options = {});
 /// The same for a file in memory. Messages call it `name`, and the ending of that is the format. glTF that refers to
@@ -104,7 +137,7 @@ struct MeshReadOptions {
 [[nodiscard]] VOXTACT_API Result<MeshData>
 readMesh(std::span<const std::byte> content, const std::filesystem::path& name, const MeshReadOptions& options = {});
 
-/// STL (binary), OBJ or PLY (binary), by the ending. Coordinates are written as they are. Written to a temporary name
+/// STL (binary), OBJ or PLY (binary), by the ending. STL rounds coordinates to floats. Written to a temporary name
 /// and renamed. Refuses what checkMesh() refuses.
 VOXTACT_API Result<void> writeMesh(const std::filesystem::path& path, const MeshView& mesh);
 
@@ -131,46 +164,50 @@ class PoseReader {
     std::unique_ptr<State> state_;
 };
 
-/// One matrix a line: 16 numbers, row by row; `#` comments and empty lines. Numbers have a decimal point in every
-/// locale. Errors name the line ("poses.txt line 7: 15 numbers, a pose has 16 (row by row)"). Refuses what
-/// checkAffine() refuses, and a file without a matrix.
+/// One matrix a line: 16 numbers, or 12 without the last row, row by row, with blanks or commas between them; or four
+/// lines of 4 numbers; or an affine transform of ITK (the lines Transform, Parameters and FixedParameters), whose
+/// inverse is the pose, as 3D Slicer writes it. `#` comments and empty lines. Numbers have a decimal point in every
+/// locale. Errors name the line
+/// ("poses.txt line 7: 15 numbers, a pose has 16, or 12 (row by row)"). Refuses what checkAffine() refuses, and a file
+/// without a matrix.
 [[nodiscard]] VOXTACT_API Result<std::vector<Mat4>> readPoses(const std::filesystem::path& path);
 
 /// One `clip_from_world` matrix: 16 numbers, row by row, on any number of lines. Refuses a singular one.
 [[nodiscard]] VOXTACT_API Result<Mat4> readCamera(const std::filesystem::path& path);
 
-/// Text: lines `value opacity`, `#` comments; or JSON (an object: told by the first character) with `points`: an array
-/// of [value, opacity] or of objects with `value` and `opacity`; readColours() reads another member. Errors name the
-/// line or the point. Refuses opacities outside [0,1], values below the one before, and no point.
+/// Reads opacity: text with lines `value opacity` and `#` comments; JSON (told by the first character) with `points`,
+/// an array of [value, opacity] or of objects with `value` and `opacity`; ParaView's colour map (JSON), where its
+/// opacity is linear between the points; or 3D Slicer's volume property (.vp), where its gradient opacity is 1. Errors
+/// name the line or the point. Refuses opacities outside [0,1], values below the one before, and no point.
 [[nodiscard]] VOXTACT_API Result<std::vector<ControlPoint>> readTransferFunction(const std::filesystem::path& path);
-/// The colours of such a JSON file: `colours`, an array of [value, red, green, blue] with channels from 0 to 1. None
-/// where there are none, and for text. Refuses channels outside [0,1] and values below the one before.
+/// Reads the colours of such a file: of JSON `colours`, an array of [value, red, green, blue] with channels from 0 to
+/// 1, or those of another program, which are mixed in RGB. None where there are none, and for text. Refuses channels
+/// outside [0,1] and values below the one before.
 [[nodiscard]] VOXTACT_API Result<std::vector<ColourPoint>> readColours(const std::filesystem::path& path);
 /// The same as "v:a,v:a,...".
 [[nodiscard]] VOXTACT_API Result<std::vector<ControlPoint>> parseOpacity(std::string_view text);
 
-/// What a label of a label map is called.
-struct LabelName {
-    std::int32_t label = 0; ///< its number in the map
-    std::string name;       ///< what it is called
-};
-
-/// One label per line: `number name`, and whatever follows; `#` comments and empty lines. This is what lies beside
-/// label maps of MRIcron, and FreeSurfer's colour tables. In the order of the file. Errors name the line. Refuses
+/// One label per line: `number name`, or ITK-SNAP's `number R G B A VIS MSH "name"`; `#` comments and empty lines. A
+/// name may have blanks; numbers behind it (colours of FreeSurfer and 3D Slicer, or MRIcron's one number) are no part
+/// of it, unless one number is all that tells names apart. In the order of the file. Errors name the line. Refuses
 /// numbers that are not whole or beyond an int32, a line without a name, a number with two different names, and a file
 /// without a label.
 [[nodiscard]] VOXTACT_API Result<std::vector<LabelName>> readLabelNames(const std::filesystem::path& path);
 
 /// A point of a list.
 struct NamedPoint {
-    Vec3 position{};        ///< as it stands in the file
+    Vec3 position{};        ///< mm in LPS
     std::string name;       ///< empty: it has none
-    std::uint64_t line = 0; ///< of the file, from 1
+    std::uint64_t line = 0; ///< of the file, from 1; in .mrk.json the number of the point
 };
 
-/// One point a line: `x y z` or `x y z name`; `#` comments and empty lines. In the order of the file. Errors name the
-/// line. Refuses numbers that are not finite, lines of other lengths, and a file without a point.
-[[nodiscard]] VOXTACT_API Result<std::vector<NamedPoint>> readPoints(const std::filesystem::path& path);
+/// Reads points, in the order of the file: 3D Slicer's .fcsv and .mrk.json by the ending, else one point a line, `x y
+/// z` or `x y z name` with `#` comments and empty lines. `space`: of the coordinates; empty: as the file states, else
+/// LPS. Errors name the line. Refuses a space that contradicts the file, numbers that are not finite, lines of other
+/// lengths, a .fcsv without a coordinate system where no space is given, markups other than lists of points, points
+/// that are not placed, units other than mm, and a file without a point.
+[[nodiscard]] VOXTACT_API Result<std::vector<NamedPoint>> readPoints(const std::filesystem::path& path,
+                                                                     std::optional<MeshSpace> space = {});
 
 /// How far writing is: rows of a picture that are written, and all. Called on the writing thread, after each. False: no
 /// more is written, and what is called returns Cancelled. Must not throw. Empty: nobody.

@@ -50,7 +50,7 @@ struct ViewDirection {
 /// top and bottom.
 [[nodiscard]] VOXTACT_API std::optional<ViewDirection> directionNamed(std::string_view name) noexcept;
 
-/// Whence the eye looks, as a direction of world space, of unit length.
+/// From where the eye looks, as a direction of world space, of unit length.
 [[nodiscard]] VOXTACT_API Vec3 towardsEye(const ViewDirection& direction) noexcept;
 
 /// A rotation. Rows: to the picture's right, down and forward.

@@ -30,14 +30,14 @@ enum class Projection : std::uint32_t {
     /// longest side, also for Boundary::Clamp.
     DominantAxis = 2,
     /// Every voxel cell that a triangle passes through, decided with bounds: a contact is never missed. No camera
-    Conservative = 3,
+    Certified = 3,
 };
 
 /// Samples along a voxel's side in the projection DominantAxis.
 inline constexpr std::uint32_t kDefaultSamplesPerVoxel = 1;
 /// The finest grid of the projection DominantAxis.
-inline constexpr std::uint32_t kMostSamplesPerVoxel = 16;
-/// The projection Conservative stops dividing pieces of a triangle that are no longer than this many voxels.
+inline constexpr std::uint32_t kMaxSamplesPerVoxel = 16;
+/// The projection Certified stops dividing pieces of a triangle that are no longer than this many voxels.
 inline constexpr double kDefaultResolution = 1.0 / 64;
 /// How far a contact's penetration is followed, in millimetres.
 inline constexpr double kDefaultMaxDepth = 10;
@@ -45,7 +45,7 @@ inline constexpr double kDefaultMaxDepth = 10;
 /// How the image is sampled.
 enum class Filter : std::uint32_t {
     Hardware = 0, ///< the device's sampler (8 fraction bits of weight on much hardware)
-    Exact = 1,    ///< fp32 in a written order (shaders/exact.h): the same bits on every device and on the host
+    Exact = 1,    ///< fp32 in a written order (src/exact/exact.h): the same bits on every device and on the host
 };
 
 /// What happens to fragments whose texture coordinate leaves [0,1]^3 (paper, section 5).
@@ -62,7 +62,7 @@ enum class Exactness : std::uint32_t {
     Refused = 2,    ///< nothing was counted: the pose, which is on the device, is not finite or not affine
 };
 
-/// The name as on the command line ("query-any"); it lives for ever; "unknown" for no method.
+/// The name as on the command line ("query-any"); static lifetime; "unknown" for no method.
 [[nodiscard]] VOXTACT_API const char* toString(CountingMethod method) noexcept;
 /// The same of a projection: "two-view".
 [[nodiscard]] VOXTACT_API const char* toString(Projection projection) noexcept;
@@ -87,7 +87,7 @@ enum class Exactness : std::uint32_t {
 
 /// Exact for the methods that are the same on every device with it (compute, cpu), hardware for the others.
 [[nodiscard]] VOXTACT_API Filter defaultFilter(CountingMethod method) noexcept;
-/// What a count by a method is worth: LowerBound for QueryAny. A fragment that stays undecided (Conservative) and an
+/// What a count by a method is worth: LowerBound for QueryAny. A fragment that stays undecided (Certified) and an
 /// early exit make it a lower bound too; PairAnswer::exactness has the last word.
 [[nodiscard]] VOXTACT_API Exactness exactness(CountingMethod method) noexcept;
 

@@ -25,21 +25,14 @@ enum class Interpolation : std::uint32_t {
     /// constant speed and by no more than half a turn (Shoemake, 1985).
     Slerp,
 };
-/// "screw" or "slerp"; it lives for ever.
+/// "screw" or "slerp"; static lifetime.
 [[nodiscard]] VOXTACT_API const char* toString(Interpolation interpolation) noexcept;
 
 /// mm: how near to each other the end of what is free and a touch are brought, where nothing else is asked for.
 inline constexpr double kDefaultMotionResolution = 0.01;
-/// What is asked of a search along motions.
-struct MotionSearch {
-    /// mm, from 1e-6 on: how near to each other what is free and a touch are brought.
-    double resolution = kDefaultMotionResolution;
-    Interpolation interpolation = Interpolation::Screw; ///< of the poses
-};
-
 /// What two poses may differ by that is no rigid motion (scale, shear), in each element of the matrix from one to the
 /// other. It is spread evenly over the way.
-inline constexpr double kMostDeformation = 1e-3;
+inline constexpr double kMaxDeformation = 1e-3;
 
 /// The pose at a parameter: `from` at 0, `to` at 1, and rounding apart the motion above in between. `centre`: of the
 /// mesh's box, object space (MeshFacts::bounds); Slerp alone needs it. Refuses poses that are not affine or cannot be
@@ -49,10 +42,9 @@ inline constexpr double kMostDeformation = 1e-3;
                                                    const Vec3& centre = {});
 
 /// The shape at a parameter of a mesh that bends on the way, `from` at 0 and `to` at 1: each vertex goes straight, at
-/// constant speed, and is rounded to the nearest float. Refuses shapes of different sizes, and a parameter outside of 0
-/// to 1.
-[[nodiscard]] VOXTACT_API Result<std::vector<float>> shapeBetween(std::span<const float> from,
-                                                                  std::span<const float> to, double parameter);
+/// constant speed. Refuses shapes of different sizes, and a parameter outside of 0 to 1.
+[[nodiscard]] VOXTACT_API Result<std::vector<double>> shapeBetween(std::span<const double> from,
+                                                                   std::span<const double> to, double parameter);
 
 /// A pose on the way that touches.
 struct MotionTouch {
@@ -68,7 +60,7 @@ enum class MotionEnd : std::uint32_t {
     Grazes,  ///< somewhere it is so near that within the resolution neither is proven: the verdict *possible*
     Budget,  ///< the steps that were allowed are used up
 };
-/// "decided", "grazes" or "budget"; it lives for ever.
+/// "decided", "grazes" or "budget"; static lifetime.
 [[nodiscard]] VOXTACT_API const char* toString(MotionEnd end) noexcept;
 
 /// What was found of one segment.

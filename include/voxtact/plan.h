@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "voxtact/clearance.h"
 #include "voxtact/data.h"
+#include "voxtact/distance.h"
 
 #include <array>
 #include <cstdint>
@@ -23,7 +23,7 @@ struct Needle {
 };
 
 /// Directions from a target, and entries, at most: 10 n^2 + 2 for n = 632.
-inline constexpr std::uint32_t kMostEntries = 3994242;
+inline constexpr std::uint32_t kMaxEntries = 3994242;
 /// mm: what is farther from a path is not measured, where nothing else is asked for.
 inline constexpr double kDefaultPlanMaximum = 10;
 /// mm: how near to each other the bounds of a path are brought, where nothing else is asked for.
@@ -34,11 +34,11 @@ inline constexpr double kNearestEntry = 1e-3;
 
 /// What is certain of a path.
 enum class Safety : std::uint32_t {
-    Unsafe,   ///< it comes as near to something as the margin, or touches it
-    Safe,     ///< it keeps more than the margin from everything, all the way
-    Possible, ///< neither could be shown: roundings decide, or the steps that were allowed are used up
+    Unsafe,    ///< it comes as near to something as the margin, or touches it
+    Safe,      ///< it keeps more than the margin from everything, all the way
+    Undecided, ///< neither could be shown: roundings decide, or the steps that were allowed are used up
 };
-/// "unsafe", "safe" or "possible"; it lives for ever.
+/// "unsafe", "safe" or "undecided"; static lifetime.
 [[nodiscard]] VOXTACT_API const char* toString(Safety safety) noexcept;
 
 /// What a path comes nearest to.
@@ -55,10 +55,10 @@ struct PlannedPath {
     Vec3 position{};                        ///< of the entry, world mm
     double length = 0;                      ///< mm, from the entry to the target
     std::optional<double> angle;            ///< degrees between it and the normal of the entry's surface
-    Safety safety = Safety::Possible;       ///< of the whole way
-    ClearanceBounds clearance;              ///< mm, of the whole way: 0 where it touches
-    ClearanceEnd end{};                     ///< why these are no nearer to each other
-    std::optional<NearestObstacle> nearest; ///< where clearance.hi is finite
+    Safety safety = Safety::Undecided;      ///< of the whole way
+    Bounds clearance;                       ///< mm, of the whole way: 0 where it touches
+    StopReason end{};                       ///< why these are no nearer to each other
+    std::optional<NearestObstacle> nearest; ///< where clearance.upper is finite
 };
 
 /// A triangle between the entries of neighbouring directions, outward counter-clockwise.
@@ -67,7 +67,7 @@ struct EntryTriangle {
     /// Every path from any point of this triangle to the target certainly keeps more than the margin, not only those
     /// from its corners.
     bool safe = false;
-    /// mm, where PlanTask::triangleClearances asks for it: every path from any point of this triangle certainly keeps
+    /// mm, where PlanTask::triangleDistances asks for it: every path from any point of this triangle certainly keeps
     /// at least so much; no more than PlannerDesc::maximum.
     double clearance = 0;
 };
@@ -80,10 +80,11 @@ struct PlanAnswer {
     double safeArea = 0;                  ///< mm2 of the safe ones
     std::uint32_t directions = 0;         ///< that were looked along
     std::uint32_t noSurface = 0;          ///< of them, those along which there is no surface to enter through
-    std::uint32_t onBorder = 0;           ///< of the others, those where the image ends (EntrySurface::borderEntries)
-    std::uint32_t tooLong = 0;            ///< of the others, those that are longer than the maximum
-    std::uint32_t tooOblique = 0;         ///< of the others, those at a larger angle than the maximum, or at none
-    double wallMilliseconds = 0;          ///< of the whole call
+    std::uint32_t onBorder = 0;   ///< of the others, those where the image ends, or ends in air that is enclosed
+                                  ///< there (EntrySurface::borderEntries)
+    std::uint32_t tooLong = 0;    ///< of the others, those that are longer than the maximum
+    std::uint32_t tooOblique = 0; ///< of the others, those at a larger angle than the maximum, or at none
+    double wallMilliseconds = 0;  ///< of the whole call
 };
 
 /// The label values that a straight line crosses, in order from `from` to `to`, each once; 0 is left out. By the voxels

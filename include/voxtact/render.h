@@ -59,10 +59,10 @@ struct RendererDesc {
 };
 
 /// The most that a number of Lighting may be.
-inline constexpr double kMostLight = 1e6;
+inline constexpr double kMaxLight = 1e6;
 
 /// How light falls: from the eye and from its side, on both sides of a surface (Blinn-Phong). `ambient`, `diffuse`,
-/// `specular`, `shininess` and `side` are from 0 to kMostLight.
+/// `specular`, `shininess` and `side` are from 0 to kMaxLight.
 struct Lighting {
     bool volume = true;    ///< by the gradient, from central differences; false: the colours as they are
     bool mesh = true;      ///< the same for meshes
@@ -93,7 +93,7 @@ struct ClipPlane {
     double offset = 0; ///< mm along the normal, where that is of length 1
 };
 /// Planes that a Scene may have.
-inline constexpr std::size_t kMostClipPlanes = 6;
+inline constexpr std::size_t kMaxClipPlanes = 6;
 /// What takes a side of a volume away. `left`, `right`, `back`, `front`, `top` and `bottom`: that side of a plane at
 /// `at` mm of the world's x, y or z; `near`: what is nearer to the eye than `at` mm before the volume's middle. Without
 /// `at` the plane goes through the middle. `towardsEye`, of unit length, matters to `near` alone. Nothing for another
@@ -161,7 +161,7 @@ struct Scene : SceneMesh {
     const RenderTransferFunction* transferFunction = nullptr; ///< must be given
     const RenderBricks* bricks = nullptr;                     ///< optional, of `volume`: what is transparent is skipped
     std::span<const SceneMesh> others = {};     ///< further meshes, or the same at further poses; none is null
-    std::span<const ClipPlane> clipPlanes = {}; ///< at most kMostClipPlanes: what any of them takes away is away
+    std::span<const ClipPlane> clipPlanes = {}; ///< at most kMaxClipPlanes: what any of them takes away is away
     /// Orthographic or perspective; not singular. The near plane may be at depth 0 or 1, the far one at infinity.
     Mat4 clip_from_world{};
     Colour background{}; ///< behind everything
@@ -214,7 +214,7 @@ class Renderer {
     ///
     /// On error nothing was recorded. Refuses a singular camera or pose, colours outside 0..1, objects that do not
     /// belong together, a step that gives a ray through the volume more than 65536 samples, a paint without what it
-    /// needs, a clipping plane whose normal is zero, more than kMostClipPlanes of them, and an area that is not in the
+    /// needs, a clipping plane whose normal is zero, more than kMaxClipPlanes of them, and an area that is not in the
     /// picture.
     VOXTACT_API Result<void> cmdRender(VkCommandBuffer commandBuffer, const Scene& scene, const Target& target) const;
 

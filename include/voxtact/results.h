@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "voxtact/clearance.h"
 #include "voxtact/data.h"
 #include "voxtact/device_results.h"
 #include "voxtact/methods.h"
-#include "voxtact/motion.h"
 
 #include <cstdint>
 #include <optional>
@@ -25,6 +23,36 @@ struct Outputs {
 
     /// Whether anything is.
     [[nodiscard]] bool any() const noexcept { return triangles || contacts || bounds || labels; }
+};
+
+/// What is certain of a pair.
+enum class Verdict : std::uint32_t {
+    No,        ///< nothing touches: proven
+    Yes,       ///< it touches: proven
+    Undecided, ///< rounding decides, or the steps that were allowed are used up
+};
+/// "no", "yes" or "undecided"; static lifetime.
+[[nodiscard]] VOXTACT_API const char* toString(Verdict verdict) noexcept;
+
+/// A point that proves a yes.
+struct WitnessPoint {
+    Vec3 position{};            ///< world mm: opaque, and at most the margin from the triangle
+    std::uint32_t triangle = 0; ///< number in the mesh
+};
+
+/// Whether one pair touches.
+struct PairTouch {
+    std::uint32_t pair = 0;              ///< number of the pair in its batch
+    std::uint32_t item = 0;              ///< number of the BatchItem that the pair came from
+    std::uint32_t pose = 0;              ///< number of the pose within that item
+    Verdict touch = Verdict::No;         ///< within the margin, and at any pose of the uncertainty
+    std::optional<WitnessPoint> witness; ///< of a yes, where Touch asks for it
+};
+
+/// What a batch gave.
+struct TouchAnswer {
+    std::vector<PairTouch> pairs; ///< in the order of the batch
+    double wallMilliseconds = 0;  ///< of the whole call
 };
 
 /// A triangle with at least one survivor.
@@ -49,11 +77,11 @@ struct Contact {
     /// mm along the normal from the position to where the opacity falls below the threshold, or the image ends. It is
     /// looked for in steps of half the smallest spacing, so that a thinner gap may be missed. No more than 16,384 steps
     /// are taken: they get longer where the way to maxDepth, or through the image, needs more. maxDepth where there is
-    /// none up to there, or where there is no normal.
+    /// none up to there, or where there is no normal. The opacity on the way is that of the table, in every projection.
     double depth = 0;
     double value = 0; ///< of the image, in its own units
     /// Of that value, by Filter::Exact: a survivor of Filter::Hardware may be a little below the threshold. In
-    /// Projection::Conservative both are those that prove the touch, and it is not below the threshold (a float).
+    /// Projection::Certified both are those that prove the touch, and it is not below the threshold (a float).
     double opacity = 0;
     std::int32_t label = 0; ///< of the nearest voxel of the label map; 0 without a map, and outside of it
 };
@@ -71,7 +99,7 @@ struct PairAnswer {
     std::uint32_t item = 0;  ///< number of the BatchItem that the pair came from
     std::uint32_t pose = 0;  ///< number of the pose within that item
     bool hit = false;        ///< at least one survivor: the pair certainly touches
-    bool possible = false;   ///< no survivor, but conservative fragments that could not be decided: it may touch
+    bool possible = false;   ///< no survivor, but certified fragments that could not be decided: it may touch
     std::uint64_t count = 0; ///< survivors; 1 for a hit of a boolean query or an early exit
     Exactness exactness = Exactness::Exact;        ///< what the count is worth
     CountingMethod method = CountingMethod::Query; ///< what counted
@@ -92,9 +120,6 @@ struct BatchAnswer {
     std::uint64_t contactsFound = 0;             ///< more than contacts.size(): the list was cut, arbitrarily
     std::vector<std::optional<Box>> bounds;      ///< world, of each pair; nothing where it has no survivor
     std::vector<LabelCount> labels;              ///< by pair, then by label
-    std::vector<PairClearance> clearances;       ///< with DetectorDesc::clearance, in the order of the batch
-    std::vector<LabelClearance> labelClearances; ///< with DetectorDesc::labelClearances: by pair, then as Batch::labels
-    std::vector<SegmentMotion> motions;          ///< with DetectorDesc::motion, in the order of the batch
     std::optional<CertifiedCounters> counters{}; ///< with DetectorDesc::counters
     double gpuMilliseconds = 0;                  ///< device time of the batch; 0 where it is not known
     double wallMilliseconds = 0;                 ///< from the start of recording to the results in host memory

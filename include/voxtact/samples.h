@@ -48,8 +48,4 @@ inline constexpr double kNeedleLength = 200; ///< see kNeedleDiameter
 /// enters through the lowest face; half as many slices, rounded up).
 [[nodiscard]] VOXTACT_API Result<VolumeData> makeBuiltinVolume(std::string_view name);
 
-/// For measuring methods: the builtin scalpel at 32 poses, from just outside to deep inside the builtin head of 64^3
-/// voxels, 256x256 pixels: the same on every machine.
-[[nodiscard]] VOXTACT_API Result<MeasureScene> makeMeasureScene();
-
 } // namespace voxtact

@@ -43,7 +43,7 @@ struct WrappedVolume {
     /// All values that the voxels on the image's faces take, where the caller knows: lets Boundary::Auto clamp. Refused
     /// where they are no range.
     std::optional<ValueRange> boundaryValues;
-    /// As in VolumeOptions: the projection conservative needs them. Not to be used before the first
+    /// As in VolumeOptions: the projection certified needs them. Not to be used before the first
     /// Volume::cmdUpdateBricks(), of the whole grid.
     bool bricks = false;
 };
@@ -97,7 +97,7 @@ class Volume {
     ///
     /// What the host knows of the volume changes at once, to the safe side: valueRange() also holds the new values, or
     /// is nothing after cmdCopy(); and after an edit that reaches the image's faces Boundary::Auto takes the range test
-    /// from then on. Record in the order in which the commands will be executed, and record anew whatever was recorded
+    /// from then on. Record in the order in which the commands will be executed, and record again whatever was recorded
     /// before such an edit and is to be submitted after it.
     ///   call it             outside a render pass, on a queue with graphics or compute; a Ball, or with bricks: with
     ///                       compute
@@ -142,9 +142,9 @@ class Volume {
 struct WrappedTransferFunction {
     VkImageView view = VK_NULL_HANDLE;                               ///< 1D, opacity in component r
     VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL; ///< while commands execute
-    ValueRange domain{0, 255};                                       ///< the values that the table covers
+    ValueRange domain{};                                             ///< the values that the table covers; lo < hi
     /// The same table on the host, where the caller has it: lets Boundary::Auto prove that it may clamp. The projection
-    /// `conservative` needs it.
+    /// `certified` needs it: the function is then linear between its entries.
     std::span<const float> table;
 };
 
@@ -176,7 +176,7 @@ class TransferFunction {
     /// no device memory is allocated. Refuses what sampleTable() refuses, another size, and a wrapped table.
     ///
     /// domain() changes at once. What is recorded later counts with the new domain, what was recorded before with the
-    /// old one: record in the order in which the commands will be executed, and record anew whatever was recorded
+    /// old one: record in the order in which the commands will be executed, and record again whatever was recorded
     /// before this and is to be submitted after it.
     ///   call it             outside a render pass, on any queue with graphics, compute or transfer
     ///   expects             nothing: a table that was never uploaded is filled as well. Earlier commands that read it
@@ -197,7 +197,8 @@ class TransferFunction {
     std::unique_ptr<TransferFunctionImpl> impl_;
 };
 
-/// Buffers of the caller's. Vertices are three floats each at the start of a stride.
+/// Buffers of the caller's. Vertices are three floats each at the start of a stride, in object space: where they are
+/// far from the origin, floats lose what only vertices on the host keep.
 struct WrappedMesh {
     VkBuffer vertices = VK_NULL_HANDLE; ///< usage VERTEX_BUFFER
     VkDeviceSize vertexOffset = 0;      ///< bytes, of the first position; a multiple of 4
@@ -218,7 +219,7 @@ struct WrappedMesh {
     /// triangle. Not to be used before the first cmdUpload(); what changes the buffers later is followed by a
     /// cmdRefit().
     bool clusters = false;
-    /// For clusters, where the caller has them: the triangles on the host, in the same order. They are only looked at
+    /// For clusters, where the caller has them: the triangles on the host, in the same order. They are only examined
     /// to find which are near each other: vertices may have gone elsewhere. Empty: 64 triangles that follow each other
     /// are a cluster.
     MeshView shape{};
@@ -228,7 +229,7 @@ struct WrappedMesh {
 struct MeshOptions {
     const char* name = nullptr; ///< appears on the Vulkan objects; may be null
     /// Clusters of near triangles are made and kept beside it, 4 to 5 bytes per triangle, for the projection
-    /// `conservative` to skip those that cannot touch. create() then sorts the triangles, O(n log n).
+    /// `certified` to skip those that cannot touch. create() then sorts the triangles, O(n log n).
     bool clusters = false;
     /// Allows cmdUpdate() and cmdCopy(); keeps the triangles on the host, 12 bytes each, 16 with clusters.
     bool editable = false;
@@ -243,7 +244,7 @@ class Mesh {
     /// Refuses what checkMesh() refuses, and a stride that MeshOptions does not allow.
     [[nodiscard]] VOXTACT_API static Result<Mesh> create(const Context& context, const MeshView& data,
                                                          const MeshOptions& options = {});
-    /// Uses buffers of the caller's, which must outlive this. Their contents are not looked at: vertices must be finite
+    /// Uses buffers of the caller's, which must outlive this. Their contents are not examined: vertices must be finite
     /// and indices in range. Refuses null vertices, strides and offsets that WrappedMesh does not allow, no triangles,
     /// and with clusters: buffers without `storage`, more than the device's maxStorageBufferRange of them, a `shape`
     /// that checkMesh() refuses or that has another number of triangles.
@@ -263,12 +264,12 @@ class Mesh {
 
     /// Bends a mesh with MeshOptions::editable: vertices come elsewhere, and triangles stay between them. Each takes
     /// effect in command-buffer order: what is recorded before it counts and shows the old shape, what is recorded
-    /// after it the new one. Answers are bit for bit those of a mesh that is made afresh; triangles stay in their
-    /// clusters, whose boxes are fitted to them on the device. Where neighbours go far apart, a mesh made afresh is
+    /// after it the new one. Answers are bit for bit those of a mesh that is newly made; triangles stay in their
+    /// clusters, whose boxes are fitted to them on the device. Where neighbours go far apart, a new mesh is
     /// faster to ask. No device memory is allocated.
     ///
     /// What the host knows of the mesh changes at once, facts() and how batches are cut into dispatches: record in the
-    /// order in which the commands will be executed, and record anew whatever was recorded before this and is to be
+    /// order in which the commands will be executed, and record again whatever was recorded before this and is to be
     /// submitted after it.
     ///   call it             outside a render pass, on any queue with graphics, compute or transfer; one with compute
     ///                       where the mesh has clusters
@@ -281,12 +282,13 @@ class Mesh {
     /// command buffer itself, `vertexStride` bytes each, so that frames in flight share nothing. facts() are theirs.
     /// O(vertices + triangles). Refuses another number of coordinates and what checkMesh() refuses; the mesh is then as
     /// it was.
-    VOXTACT_API Result<void> cmdUpdate(VkCommandBuffer commandBuffer, std::span<const float> positions);
+    VOXTACT_API Result<void> cmdUpdate(VkCommandBuffer commandBuffer, std::span<const double> positions);
     /// Copies the vertices from a buffer of the caller's with usage TRANSFER_SRC: three floats each, and from one to
     /// the next MeshOptions::vertexStride bytes, all of which are copied, but for the last vertex, of which 12 are.
     /// `offset` is in bytes, a multiple of 4. Earlier commands that wrote the buffer are waited for. Nothing looks at
-    /// the values: they must be finite, else answers say nothing about the triangles that have others. facts() are
-    /// nothing from then on, until the next cmdUpdate(). O(1) on the host.
+    /// the values: they must be finite, else answers say nothing about the triangles that have others. They are object
+    /// space, which floats must hold: only vertices that the host gives are kept relative to a centre of their own.
+    /// facts() are nothing from then on, until the next cmdUpdate(). O(1) on the host.
     VOXTACT_API Result<void> cmdCopy(VkCommandBuffer commandBuffer, VkBuffer source, VkDeviceSize offset);
 
     /// Fits the clusters of a wrapped mesh to what its buffers hold after the caller changed vertices or indices. It
@@ -321,7 +323,7 @@ struct WrappedPoses {
     VkDeviceSize stride = 64;         ///< bytes from one to the next; at least 64, a multiple of 4
     std::uint32_t count = 0;          ///< poses in the buffer, at least 1
     /// No pose makes anything more than so many times as long; 1 is a rigid motion. Positive. It bounds the work of
-    /// a dispatch of the projection `conservative`, and no answer depends on it.
+    /// a dispatch of the projection `certified`, and no answer depends on it.
     double mostScale = 1;
 };
 
@@ -331,7 +333,7 @@ struct WrappedPoses {
 /// Thread-safety: const members from any thread.
 class PoseBuffer {
   public:
-    /// Uses a buffer of the caller's, which must outlive this. Its contents are not looked at. Refuses a null buffer,
+    /// Uses a buffer of the caller's, which must outlive this. Its contents are not examined. Refuses a null buffer,
     /// no poses, an offset and a stride that WrappedPoses does not allow, more than the device's maxStorageBufferRange,
     /// and a mostScale that is not a positive number.
     [[nodiscard]] VOXTACT_API static Result<PoseBuffer> wrap(const Context& context, const WrappedPoses& wrapped,
@@ -350,8 +352,7 @@ class PoseBuffer {
     std::unique_ptr<PoseBufferImpl> impl_;
 };
 
-/// A label map on the device, on its own grid: a 3D image of R16_UINT that holds numbers of labels. And, for clearances
-/// to labels, where the device has room for it, which of them each 8^3 voxels have: some 18 bytes for each of these.
+/// A label map on the device, on its own grid: a 3D image of R16_UINT that holds numbers of labels.
 class LabelMap {
   public:
     /// Refuses what checkGrid() refuses, a wrong number of indices, indices and values that makeLabels() would not

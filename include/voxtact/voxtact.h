@@ -2,23 +2,18 @@
 #ifndef VOXTACT_VOXTACT_H
 #define VOXTACT_VOXTACT_H
 
-#include "voxtact/voxtact_answer.h"
-#include "voxtact/voxtact_area.h"
 #include "voxtact/voxtact_base.h"
-#include "voxtact/voxtact_clearance.h"
 #include "voxtact/voxtact_data.h"
+#include "voxtact/voxtact_engine.h"
 #include "voxtact/voxtact_files.h"
-#include "voxtact/voxtact_host.h"
-#include "voxtact/voxtact_motion.h"
-#include "voxtact/voxtact_plan.h"
 
 /// @file
 /// voxtact in C: data, the host engine, files and builtins. Nothing here needs Vulkan; what runs on a Vulkan device is
 /// in voxtact_vulkan.h. The words are those of the C++ headers, whose comments say more: vxt_host_volume is
 /// voxtact::cpu::Volume, and vxt_volume_view is voxtact::VolumeView.
 ///
-/// Structs that begin with `struct_size` can grow. Make one with its `..._init()`, which gives it its size and its
-/// defaults, or fill it with zeros and set `struct_size` to its `sizeof` and every member yourself. A library that
+/// Structs that begin with `struct_size` can grow. Fill one with zeros, set `struct_size` to its `sizeof`, and set what
+/// you need: `vxt_distance question = {.struct_size = sizeof question, .tolerance = 0.1};`. A library that
 /// knows more members takes the defaults of those that are missing; one that knows fewer refuses members that are not
 /// zero. In an array of them all have the same `struct_size`. A struct without `struct_size` never changes.
 ///

@@ -2,6 +2,8 @@
 #ifndef VOXTACT_VOXTACT_BASE_H
 #define VOXTACT_VOXTACT_BASE_H
 
+#include "voxtact/version.h"
+
 #include <stddef.h>
 #include <stdint.h>
 #include <string.h>
@@ -10,8 +12,11 @@
 /// What all of the C interface has in common: results and their texts, and the numbers that choose methods. What holds
 /// for voxtact.h, which includes this, holds here.
 
-#if defined(__GNUC__)
-/// What the library exports.
+#if defined(__GNUC__) && defined(VOXTACT_STATIC)
+#define VXT_API
+#define VXT_CHECKED __attribute__((warn_unused_result))
+#elif defined(__GNUC__)
+/// What the library exports; nothing of a static one (VOXTACT_STATIC, which its packages define).
 #define VXT_API __attribute__((visibility("default")))
 /// The same, of a function whose result must be looked at.
 #define VXT_CHECKED __attribute__((visibility("default"), warn_unused_result))
@@ -69,7 +74,7 @@ typedef enum vxt_projection {
     VXT_PROJECTION_VIEW = 0,          ///< the caller's camera and viewport
     VXT_PROJECTION_TWO_VIEW = 1,      ///< the view, and its view volume seen along its x
     VXT_PROJECTION_DOMINANT_AXIS = 2, ///< each triangle along its own dominant axis in voxel space: no camera
-    VXT_PROJECTION_CONSERVATIVE = 3,  ///< every voxel cell that a triangle passes through, decided with bounds
+    VXT_PROJECTION_CERTIFIED = 3,     ///< every voxel cell that a triangle passes through, decided with bounds
     VXT_PROJECTION_MAX = 0x7fffffff   ///< makes the type 32 bits wide
 } vxt_projection;
 

@@ -14,11 +14,11 @@ extern "C" {
 
 /// Where the voxels of an image are: voxtact::Grid. World is LPS, in millimetres.
 typedef struct vxt_grid {
-    double spacing[3];   ///< mm; from 1e-9 to 1e12
+    double spacing[3];   ///< mm; from 1e-9 to 1e12; all 0: 1
     double origin[3];    ///< mm, within 1e12; the centre of voxel (0,0,0)
-    double direction[9]; ///< three columns, the unit vectors along the index axes; [3 * c + r]; not singular
+    double direction[9]; ///< three columns, the unit vectors along the index axes; [3 * c + r]; not singular; all 0:
+                         ///< the axes
     uint32_t size[3];    ///< voxels along x, y, z; each at least 1
-    uint32_t reserved;   ///< 0
 } vxt_grid;
 
 /// How a voxel is stored: voxtact::ScalarType.
@@ -37,7 +37,6 @@ typedef struct vxt_volume_view {
     size_t bytes;         ///< of `voxels`
     vxt_grid grid;        ///< where the voxels are
     vxt_scalar_type type; ///< of each voxel
-    uint32_t reserved;    ///< 0
 } vxt_volume_view;
 
 /// A closed interval of values in the image's own units.
@@ -57,15 +56,14 @@ typedef struct vxt_transfer_function_desc {
     size_t struct_size;              ///< sizeof
     const vxt_control_point* points; ///< ascending values; piecewise linear between, constant outside
     size_t point_count;              ///< at least 1
-    vxt_range domain;                ///< what the table covers; lo < hi; default 0..255
-    uint32_t table_size;             ///< entries; 2 to 2^24; default 256
-    uint32_t reserved;               ///< 0
+    vxt_range domain;                ///< of the table; lo < hi; default {0, 0}: what the points span
+    uint32_t table_size;             ///< entries; 2 to 2^24; 0: 256
 } vxt_transfer_function_desc;
 
 /// A triangle mesh of the caller's, in object space.
 typedef struct vxt_mesh_view {
     size_t struct_size;      ///< sizeof
-    const float* positions;  ///< three a vertex
+    const double* positions; ///< three a vertex
     size_t vertex_count;     ///< vertices
     const uint32_t* indices; ///< three a triangle
     size_t triangle_count;   ///< triangles
@@ -83,7 +81,7 @@ typedef struct vxt_mesh_facts {
     uint32_t vertices;   ///< how many
     uint32_t triangles;  ///< how many, degenerate ones included
     uint32_t degenerate; ///< triangles whose area is zero in float: allowed, no pixel of a view is theirs
-    uint32_t reserved;   ///< 0
+    double rounding;     ///< object units: voxtact::MeshFacts::rounding; above 1e-4 worth a note
 } vxt_mesh_facts;
 
 /// A box of voxels.
@@ -105,42 +103,6 @@ typedef struct vxt_box_pair {
     uint32_t second; ///< in the same array, or in the second one
 } vxt_box_pair;
 
-/// Spacing 1, origin 0, the axes of the world, and no size.
-static inline vxt_grid vxt_grid_init(void) {
-    vxt_grid grid;
-    memset(&grid, 0, sizeof grid);
-    grid.spacing[0] = grid.spacing[1] = grid.spacing[2] = 1;
-    grid.direction[0] = grid.direction[4] = grid.direction[8] = 1;
-    return grid;
-}
-
-/// An empty image of uint8.
-static inline vxt_volume_view vxt_volume_view_init(void) {
-    vxt_volume_view view;
-    memset(&view, 0, sizeof view);
-    view.struct_size = sizeof view;
-    view.grid = vxt_grid_init();
-    return view;
-}
-
-/// No points, the domain 0..255 and 256 entries.
-static inline vxt_transfer_function_desc vxt_transfer_function_desc_init(void) {
-    vxt_transfer_function_desc desc;
-    memset(&desc, 0, sizeof desc);
-    desc.struct_size = sizeof desc;
-    desc.domain.hi = 255;
-    desc.table_size = 256;
-    return desc;
-}
-
-/// An empty mesh.
-static inline vxt_mesh_view vxt_mesh_view_init(void) {
-    vxt_mesh_view view;
-    memset(&view, 0, sizeof view);
-    view.struct_size = sizeof view;
-    return view;
-}
-
 /// Smallest and largest voxel; refuses what voxtact::checkVolume() refuses. O(voxels).
 VXT_CHECKED vxt_result vxt_check_volume(const vxt_volume_view* volume, vxt_range* range);
 /// Refuses what voxtact::checkMesh() refuses. O(vertices + triangles).
@@ -157,15 +119,13 @@ VXT_CHECKED vxt_result vxt_sample_table(const vxt_transfer_function_desc* desc, 
 /// What a threshold makes of a transfer function and of the values of a volume: voxtact::OpacityFacts. Where nothing is
 /// opaque nothing touches, which is a true answer to what was hardly meant.
 typedef struct vxt_opacity_facts {
-    double spacing;   ///< of the table's entries, in the image's units
-    size_t lost;      ///< how many ranges of values the points make opaque and the table does not
-    uint32_t reaches; ///< whether some values are opaque by the control points
-    uint32_t any;     ///< whether some value of the data is, by the table
+    double moved;     ///< how far the table moves an end of the opaque values, in the image's units; or infinity
+    uint32_t reaches; ///< whether some values are opaque
+    uint32_t any;     ///< whether some value of the data is
 } vxt_opacity_facts;
-/// voxtact::checkOpacity(): `data` is the least and the largest value, as vxt_check_volume() gives them. `lost`
-/// receives the first `room` of the ranges; it may be null where `room` is 0.
+/// voxtact::checkOpacity(): `data` is the least and the largest value, as vxt_check_volume() gives them.
 VXT_CHECKED vxt_result vxt_check_opacity(const vxt_transfer_function_desc* desc, const vxt_range* data,
-                                         double threshold, vxt_range* lost, size_t room, vxt_opacity_facts* facts);
+                                         double threshold, vxt_opacity_facts* facts);
 /// From index space to the world. Refuses what voxtact::checkGrid() refuses.
 VXT_CHECKED vxt_result vxt_world_from_index(const vxt_grid* grid, double world_from_index[16]);
 /// From texture space, [0,1]^3 over the whole image, to the world.
@@ -188,6 +148,8 @@ VXT_CHECKED vxt_result vxt_inverse(const double b_from_a[16], double a_from_b[16
 /// The box of a box's corners under an affine matrix, rounded outward: voxtact::transformBox(). The two may be the
 /// same.
 VXT_CHECKED vxt_result vxt_transform_box(const double b_from_a[16], const vxt_box* box, vxt_box* transformed);
+/// The boxes of one box at `count` poses, 16 doubles each: as many into `boxes`.
+VXT_CHECKED vxt_result vxt_boxes_at(const double* world_from_object, size_t count, const vxt_box* box, vxt_box* boxes);
 
 /// The pairs that a broad phase found.
 typedef struct vxt_box_pairs vxt_box_pairs;
@@ -209,6 +171,9 @@ VXT_API const int32_t* vxt_labels_values(const vxt_labels* labels, size_t* count
 VXT_CHECKED vxt_result vxt_labels_grid(const vxt_labels* labels, vxt_grid* grid);
 /// The label at a world point; 0 outside of the map's grid.
 VXT_CHECKED vxt_result vxt_labels_at(const vxt_labels* labels, const double world[3], int32_t* label);
+/// The labels at `count` world points, three coordinates each: as many into `found`.
+VXT_CHECKED vxt_result vxt_labels_at_points(const vxt_labels* labels, const double* points, size_t count,
+                                            int32_t* found);
 /// Ends it.
 VXT_API void vxt_labels_destroy(vxt_labels* labels);
 

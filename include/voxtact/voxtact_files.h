@@ -14,36 +14,18 @@ extern "C" {
 
 /// Which image of a file or folder that holds several is read.
 typedef struct vxt_volume_read_options {
-    size_t struct_size; ///< sizeof
-    const char* series; ///< SeriesInstanceUID of a DICOM folder; null: the only one
-    int64_t frame;      ///< of a 4D NIfTI file, counted from 0; -1, the default: the only one
+    size_t struct_size;    ///< sizeof
+    const char* series;    ///< SeriesInstanceUID of a DICOM folder; null: the only one
+    uint32_t choose_frame; ///< 1: `frame` says which; 0: the only one
+    uint32_t frame;        ///< of a 4D NIfTI file, counted from 0
 } vxt_volume_read_options;
-
-/// The only one.
-static inline vxt_volume_read_options vxt_volume_read_options_init(void) {
-    vxt_volume_read_options options;
-    memset(&options, 0, sizeof options);
-    options.struct_size = sizeof options;
-    options.frame = -1;
-    return options;
-}
 
 /// What the numbers of a mesh file mean.
 typedef struct vxt_mesh_read_options {
     size_t struct_size; ///< sizeof
-    double scale;       ///< millimetres in a unit of the file; default 1
-    uint32_t ras;       ///< RAS coordinates: x and y are negated; default 0, LPS
-    uint32_t reserved;  ///< 0
+    double scale;       ///< millimetres in a unit of the file; 0: 1
+    uint32_t ras;       ///< 1: RAS coordinates: x and y are negated; 0: what the file says, else LPS
 } vxt_mesh_read_options;
-
-/// LPS in millimetres.
-static inline vxt_mesh_read_options vxt_mesh_read_options_init(void) {
-    vxt_mesh_read_options options;
-    memset(&options, 0, sizeof options);
-    options.struct_size = sizeof options;
-    options.scale = 1;
-    return options;
-}
 
 /// A volume from a file or a DICOM folder: voxtact::io::readVolume(). Null options are the defaults.
 VXT_CHECKED vxt_result vxt_read_volume(const char* path, const vxt_volume_read_options* options,
@@ -60,6 +42,15 @@ VXT_CHECKED vxt_result vxt_read_mesh_bytes(const char* name, const void* content
                                            const vxt_mesh_read_options* options, vxt_mesh_data** data);
 /// voxtact::io::writeMesh().
 VXT_CHECKED vxt_result vxt_write_mesh(const char* path, const vxt_mesh_view* mesh);
+/// Degrees by which the axes of a grid are off right angles: voxtact::io::shearDegrees(). `max_degrees`, which may be
+/// null: those of an sform of NIfTI that is not refused.
+VXT_CHECKED vxt_result vxt_grid_shear(const vxt_grid* grid, double* degrees, double* max_degrees);
+/// What the readers note of a grid that is sheared, and of vertices that single precision rounds; "" where it is
+/// neither. Valid until the same thread asks again.
+/// @{
+VXT_API const char* vxt_grid_note(const vxt_grid* grid);
+VXT_API const char* vxt_mesh_note(const vxt_mesh_facts* facts);
+/// @}
 /// One `clip_from_world` matrix: voxtact::io::readCamera().
 VXT_CHECKED vxt_result vxt_read_camera(const char* path, double clip_from_world[16]);
 
@@ -122,10 +113,10 @@ VXT_API void vxt_label_names_destroy(vxt_label_names* names);
 
 /// A list of points that was read.
 typedef struct vxt_points vxt_points;
-/// `x y z` or `x y z name`, one a line: voxtact::io::readPoints().
+/// `x y z` or `x y z name`, one a line, or 3D Slicer's .fcsv or .mrk.json: voxtact::io::readPoints().
 VXT_CHECKED vxt_result vxt_read_points(const char* path, vxt_points** points);
 /// The name of the point at a place of the file's order, "" where it has none; null beyond the last one. Its position
-/// as it stands in the file, and its line there, from 1; both may be null.
+/// in mm in LPS, and its line, from 1; both may be null.
 VXT_API const char* vxt_points_get(const vxt_points* points, size_t index, double position[3], uint64_t* line);
 /// Ends it.
 VXT_API void vxt_points_destroy(vxt_points* points);

@@ -2,7 +2,7 @@
 #ifndef VOXTACT_VOXTACT_RENDER_H
 #define VOXTACT_VOXTACT_RENDER_H
 
-#include "voxtact/voxtact_host.h"
+#include "voxtact/voxtact_engine.h"
 #include "voxtact/voxtact_vulkan.h"
 
 /// @file
@@ -61,19 +61,17 @@ typedef struct vxt_render_function_desc {
     size_t point_count;              ///< at least 1
     const vxt_colour_point* colours; ///< ascending values; constant outside; none: white
     size_t colour_count;             ///< of `colours`
-    vxt_range domain;                ///< what the table covers; lo < hi; default 0..255
+    vxt_range domain;                ///< of the table; lo < hi; default {0, 0}: what the points span
     double opacity_unit;             ///< the length of material that opacity is for; default 1
     double step;                     ///< from one sample of a ray to the next; half a voxel is a good one; default 0.5
     uint32_t table_size;             ///< entries; 2 to 1024; default 256
-    uint32_t reserved;               ///< 0
 } vxt_render_function_desc;
 
-/// The domain 0..255, 256 entries, steps of half a millimetre.
+/// The domain that the points span, 256 entries, steps of half a millimetre.
 static inline vxt_render_function_desc vxt_render_function_desc_init(void) {
     vxt_render_function_desc desc;
     memset(&desc, 0, sizeof desc);
     desc.struct_size = sizeof desc;
-    desc.domain.hi = 255;
     desc.opacity_unit = 1;
     desc.step = 0.5;
     desc.table_size = 256;
@@ -185,7 +183,7 @@ typedef struct vxt_scene_mesh {
     double colour[3];                               ///< where nothing is painted; default 0.75 0.78 0.82
     double contact_colour[3];                       ///< of survivors and chosen triangles; default 1 0.23 0.08
     double discarded_colour[3];                     ///< DISCARDED: of what does not survive; default 0.16 0.36 0.88
-    double threshold;                               ///< of CONTACTS and DISCARDED; 0..1; default 0.1
+    double threshold;                               ///< of CONTACTS and DISCARDED; above 0, to 1; 0: 0.1
     double through;                       ///< 0..1: how much of what is painted is seen through the volume; default 0
     vxt_paint paint;                      ///< default PLAIN
     uint32_t clipped;                     ///< by the clipping planes, as the volume is; default 0
@@ -212,7 +210,6 @@ typedef struct vxt_lighting {
     uint32_t volume;     ///< on the volume, by its gradient; default 1
     uint32_t mesh;       ///< on meshes; default 1
     uint32_t faces;      ///< on faces of cuts as on planes; default 1
-    uint32_t reserved;   ///< 0
 } vxt_lighting;
 
 /// The light of a name, `soft`, `eye` or `none`, in this volume: voxtact::lightingNamed(). `lighting` comes from
@@ -224,6 +221,8 @@ VXT_CHECKED vxt_result vxt_clip_side(const char* side, const double* at, const v
                                      const vxt_view_direction* direction, vxt_clip_plane* plane);
 /// A colour for each of several meshes, by its number: voxtact::meshColour(). Null is allowed.
 VXT_API void vxt_mesh_colour(size_t number, double colour[3]);
+/// The colour of a volume that has no look, a warm white: voxtact::plainColours(). Null is allowed.
+VXT_API void vxt_plain_colour(double colour[3]);
 /// How much of what is painted shines through, so that it is seen: voxtact::throughFor(); 0 for no paint.
 VXT_API double vxt_paint_through(vxt_paint paint);
 
@@ -241,7 +240,6 @@ typedef struct vxt_picture_scene {
     double clip_from_world[16];          ///< orthographic or perspective; not singular
     double background[3];                ///< behind everything; default black
     uint32_t jitter;                     ///< noise instead of bands; default 1
-    uint32_t reserved;                   ///< 0
     const vxt_cancel* cancel;            ///< ends vxt_blocking_renderer_render() early; may be null, the default
 } vxt_picture_scene;
 

@@ -34,19 +34,10 @@ typedef struct vxt_context_desc {
     vxt_log_callback log;                              ///< optional; warnings, a line each
     void* log_user;                                    ///< the first argument of every call of `log`
     uint32_t api_version;                              ///< of the instance; at least VK_API_VERSION_1_3
-    uint32_t reserved;                                 ///< 0
     const uint32_t* queue_families;                    ///< of the queues that use what is made; two or more share it
     size_t queue_family_count;                         ///< of these: voxtact::ContextDesc::queueFamilies
     uint64_t fragments_at_once;                        ///< that a draw tests: voxtact::ContextDesc::fragmentsAtOnce
 } vxt_context_desc;
-
-/// Nothing is given: vxt_check() then names everything that is missing.
-static inline vxt_context_desc vxt_context_desc_init(void) {
-    vxt_context_desc desc;
-    memset(&desc, 0, sizeof desc);
-    desc.struct_size = sizeof desc;
-    return desc;
-}
 
 /// A feature that voxtact uses: voxtact::Requirement. Its texts live for ever.
 typedef struct vxt_requirement {
@@ -54,7 +45,6 @@ typedef struct vxt_requirement {
     const char* structure; ///< e.g. "VkPhysicalDeviceVulkan13Features"
     const char* without;   ///< what is lost without it
     uint32_t required;     ///< 0: recommended
-    uint32_t reserved;     ///< 0
 } vxt_requirement;
 
 /// How many there are.
@@ -83,16 +73,7 @@ typedef struct vxt_queue {
     void (*unlock)(void* user); ///< called after it; may be null
     void* user;                 ///< the argument of both
     uint32_t family;            ///< of the queue; with graphics or, for uploads, compute
-    uint32_t reserved;          ///< 0
 } vxt_queue;
-
-/// No queue.
-static inline vxt_queue vxt_queue_init(void) {
-    vxt_queue queue;
-    memset(&queue, 0, sizeof queue);
-    queue.struct_size = sizeof queue;
-    return queue;
-}
 
 /// voxtact on one device: voxtact::Context. Any number of them live in one process.
 VXT_CHECKED vxt_result vxt_context_create(const vxt_context_desc* desc, vxt_context** context);
@@ -107,17 +88,47 @@ VXT_API uint32_t vxt_context_device_lost(const vxt_context* context);
 /// Ends it. What was made with it lives on.
 VXT_API void vxt_context_destroy(vxt_context* context);
 
+/// A Vulkan device of the library's own, for whoever has none: an instance, a device with one queue, and a context. The
+/// Vulkan loader is looked for when it is opened. One that was opened before fork() cannot be used in the child.
+typedef struct vxt_device vxt_device;
+/// A device of the machine.
+typedef struct vxt_device_facts {
+    size_t struct_size;   ///< sizeof
+    char name[256];       ///< as the driver has it
+    char driver[520];     ///< its name and version
+    const char* type;     ///< "discrete", "integrated", "virtual", "cpu" or "other"; it lives for ever
+    uint32_t index;       ///< its number
+    uint32_t api_version; ///< as VK_MAKE_API_VERSION packs it
+} vxt_device_facts;
+/// How many there are. UNSUPPORTED where there is no loader or no device.
+VXT_CHECKED vxt_result vxt_device_count(uint32_t* count);
+/// What is known of one of them.
+VXT_CHECKED vxt_result vxt_device_describe(uint32_t index, vxt_device_facts* facts);
+/// Opens one: `wanted` is its number, a part of its name, or "" for the best. Refuses a name of no or of several
+/// devices, and lists those that there are. UNSUPPORTED without a loader, a device or Vulkan 1.3.
+VXT_CHECKED vxt_result vxt_device_open(const char* wanted, vxt_device** device);
+/// What is known of it.
+VXT_CHECKED vxt_result vxt_device_get_facts(const vxt_device* device, vxt_device_facts* facts);
+/// Its context; the device's own, valid as long as it. Null of null.
+VXT_API const vxt_context* vxt_device_context(const vxt_device* device);
+/// Its queue, for what blocks; valid as long as the device.
+VXT_CHECKED vxt_result vxt_device_queue(const vxt_device* device, vxt_queue* queue);
+/// Begins to record commands. One thread at a time, up to vxt_device_submit().
+VXT_CHECKED vxt_result vxt_device_begin(vxt_device* device, VkCommandBuffer* commands);
+/// Submits what was recorded, and waits.
+VXT_CHECKED vxt_result vxt_device_submit(vxt_device* device);
+/// Destroys it. What was made with it must have been destroyed.
+VXT_API void vxt_device_destroy(vxt_device* device);
+
 /// What is known of a counting method on a device.
 typedef struct vxt_method_report {
-    const char* text;        ///< why it is not available or not trusted, or what was counted; may be empty
-    double pairs_per_second; ///< vxt_measure_methods(): wall clock, median; 0 where it was not measured
-    vxt_method method;       ///< which
-    uint32_t available;      ///< whether a detector can be made for it
-    uint32_t trusted;        ///< vxt_self_test(): every count was as it must be
-    uint32_t reserved;       ///< 0
+    const char* text;   ///< why it is not available or not trusted, or what was counted; may be empty
+    vxt_method method;  ///< which
+    uint32_t available; ///< whether a detector can be made for it
+    uint32_t trusted;   ///< vxt_self_test(): every count was as it must be
 } vxt_method_report;
 
-/// What vxt_check(), vxt_self_test() or vxt_measure_methods() found.
+/// What vxt_check() or vxt_self_test() found.
 typedef struct vxt_report_view {
     size_t struct_size;               ///< sizeof
     const char* const* missing;       ///< vxt_check(): a line for each thing: what, and what it costs
@@ -125,16 +136,7 @@ typedef struct vxt_report_view {
     const vxt_method_report* methods; ///< every counting method of a device
     size_t method_count;              ///< of these
     uint32_t usable;                  ///< a context can be made
-    uint32_t reserved;                ///< 0
 } vxt_report_view;
-
-/// Nothing.
-static inline vxt_report_view vxt_report_view_init(void) {
-    vxt_report_view view;
-    memset(&view, 0, sizeof view);
-    view.struct_size = sizeof view;
-    return view;
-}
 
 /// A report.
 typedef struct vxt_report vxt_report;
@@ -142,12 +144,12 @@ typedef struct vxt_report vxt_report;
 VXT_CHECKED vxt_result vxt_report_get(const vxt_report* report, vxt_report_view* view);
 /// Ends it.
 VXT_API void vxt_report_destroy(vxt_report* report);
+/// Which methods a detector can be made for on this device, and why others cannot.
+VXT_CHECKED vxt_result vxt_context_methods(const vxt_context* context, vxt_report** report);
 /// Looks at a description without making anything. What is wrong with the device is in the report, not in the result.
 VXT_CHECKED vxt_result vxt_check(const vxt_context_desc* desc, vxt_report** report);
 /// Counts a known number of fragments by each method: voxtact::selfTest(). Blocks.
 VXT_CHECKED vxt_result vxt_self_test(const vxt_context* context, const vxt_queue* queue, vxt_report** report);
-/// The self-test, and then a small scene by each trusted method: voxtact::measureMethods(). Blocks.
-VXT_CHECKED vxt_result vxt_measure_methods(const vxt_context* context, const vxt_queue* queue, vxt_report** report);
 
 #ifdef __cplusplus
 }

@@ -2,6 +2,7 @@
 #ifndef VOXTACT_VOXTACT_VULKAN_DETECT_H
 #define VOXTACT_VOXTACT_VULKAN_DETECT_H
 
+#include "voxtact/voxtact_answer.h"
 #include "voxtact/voxtact_vulkan_scene.h"
 
 /// @file
@@ -18,70 +19,25 @@ typedef struct vxt_detector_desc {
     vxt_projection projection;  ///< default VIEW
     vxt_filter filter;          ///< default HARDWARE
     vxt_boundary boundary;      ///< default AUTO
-    double max_depth;           ///< mm, how far a contact's penetration is followed; default 10
-    double resolution;          ///< CONSERVATIVE, voxels; 2^-12 to 1; default 1/64
+    double max_depth;           ///< mm, how far a contact's penetration is followed; 0: 10
+    double resolution;          ///< CERTIFIED, voxels; 2^-12 to 1; 0: 1/64
     uint32_t outputs;           ///< bits of vxt_output; default none; the results need room for them
-    uint32_t samples_per_voxel; ///< DOMINANT_AXIS: along a voxel's side; 1 to 16; default 1
-    uint32_t stop_at_first;     ///< CONSERVATIVE without outputs: the count is then 0 or 1, a lower bound; default 0
+    uint32_t samples_per_voxel; ///< DOMINANT_AXIS: along a voxel's side; 1 to 16; 0: 1
+    uint32_t stop_at_first;     ///< CERTIFIED without outputs: the count is then 0 or 1, a lower bound; default 0
     uint32_t overestimate;      ///< DOMINANT_AXIS: every pixel that a triangle touches gives a fragment; default 0
-    uint32_t counters;          ///< CONSERVATIVE: what the passes do is counted, for vxt_answer_counters(); default 0
+    uint32_t counters;          ///< CERTIFIED: what the passes do is counted, for vxt_answer_counters(); default 0
     uint32_t device_poses;      ///< items may have vxt_item::poses: voxtact::DetectorDesc::devicePoses; default 0
-    /// CONSERVATIVE with stop_at_first: whether anything opaque is within so many mm is asked; 0 to 1e6; 0: the touch
-    double margin;
-    /// CONSERVATIVE without a margin and outputs: how near each pair is, to so many mm, from 1e-6 on, for
-    /// vxt_answer_clearances(); the results need room for it. 0, the default: that is not asked
-    double clearance_tolerance;
-    double max_clearance; ///< with clearance_tolerance, mm: what is farther is not measured; 0, the default: all is
-    uint32_t closest;     ///< with clearance_tolerance: closest points, too; the results need room for them; default 0
-    /// With clearance_tolerance: clearances to each label of vxt_batch::labels, too; the results need room for them,
-    /// and each item a label map on the volume's grid. Default 0
-    uint32_t label_clearances;
-    uint32_t labels_at_any_opacity; ///< with these: to all of a label, be it opaque or not; default 0
-    uint32_t reserved;              ///< 0
-    /// CONSERVATIVE with stop_at_first, without outputs and a margin: whether anything touches at some pose that is
-    /// turned by no more than so many degrees, 0 to 180, about any axis through its object's origin, and then moved by
-    /// no more than so many mm, 0 to 1e6. 0 and 0, the default: the pose itself
-    double pose_angle;
-    double pose_distance; ///< with pose_angle
-    /// CONSERVATIVE with stop_at_first, without outputs and another question: the way from each pose of an item to the
-    /// next, to so many mm, from 1e-6 on, for vxt_answer_motions(); the results need room for it. 0, the default: that
-    /// is not asked
-    double motion_resolution;
-    vxt_interpolation motion_interpolation; ///< with motion_resolution; default SCREW
-    uint32_t reserved_too;                  ///< 0
 } vxt_detector_desc;
-
-/// A view by precise queries.
-static inline vxt_detector_desc vxt_detector_desc_init(void) {
-    vxt_detector_desc desc;
-    memset(&desc, 0, sizeof desc);
-    desc.struct_size = sizeof desc;
-    desc.max_depth = 10;
-    desc.resolution = 1.0 / 64;
-    desc.samples_per_voxel = 1;
-    return desc;
-}
 
 /// Poses in a buffer of the caller's: voxtact::WrappedPoses. 16 floats each, column-major, which is a mat4 of std430.
 typedef struct vxt_wrapped_poses {
     size_t struct_size;  ///< sizeof
     VkBuffer buffer;     ///< usage STORAGE_BUFFER
     VkDeviceSize offset; ///< bytes, of the first one; a multiple of 4
-    VkDeviceSize stride; ///< bytes from one to the next; at least 64, the default; a multiple of 4
-    double most_scale;   ///< no pose makes anything more than so many times as long; default 1. No answer depends on it
+    VkDeviceSize stride; ///< bytes from one to the next; at least 64; a multiple of 4; 0: 64
+    double most_scale;   ///< no pose makes anything more than so many times as long; 0: 1. No answer depends on it
     uint32_t count;      ///< poses in the buffer; at least 1
-    uint32_t reserved;   ///< 0
 } vxt_wrapped_poses;
-
-/// Rigid poses, one after the other.
-static inline vxt_wrapped_poses vxt_wrapped_poses_init(void) {
-    vxt_wrapped_poses wrapped;
-    memset(&wrapped, 0, sizeof wrapped);
-    wrapped.struct_size = sizeof wrapped;
-    wrapped.stride = 64;
-    wrapped.most_scale = 1;
-    return wrapped;
-}
 
 /// Poses on the device, which are read when commands execute: voxtact::PoseBuffer.
 typedef struct vxt_pose_buffer vxt_pose_buffer;
@@ -101,7 +57,7 @@ typedef struct vxt_item {
     const vxt_transfer_function* transfer_function; ///< what of it is opaque
     const double* world_from_object;                ///< 16 doubles per pose; affine; read while recording only
     size_t pose_count;                              ///< poses: a pair each
-    const vxt_label_map* labels;  ///< for the outputs CONTACTS (optional) and LABELS, and label_clearances
+    const vxt_label_map* labels;                    ///< for the outputs CONTACTS (optional) and LABELS
     const vxt_pose_buffer* poses; ///< on the device: the first pose_count of them, world_from_object being null; for
                                   ///< detectors with device_poses. A pose that cannot be used is EXACTNESS_REFUSED
 } vxt_item;
@@ -112,27 +68,8 @@ typedef struct vxt_batch {
     const vxt_item* items; ///< any number; answers are in their order
     size_t item_count;     ///< of `items`
     const vxt_view* view;  ///< may be null for projections without a camera
-    double threshold;      ///< 0..1: opacity from which a sample is opaque; default 0.1
-    const int32_t* labels; ///< with vxt_detector_desc::label_clearances: to which, at most 4096; default none
-    size_t label_count;    ///< of `labels`
+    double threshold;      ///< above 0, to 1: opacity from which a sample is opaque; 0: 0.1
 } vxt_batch;
-
-/// Nothing is given.
-static inline vxt_item vxt_item_init(void) {
-    vxt_item item;
-    memset(&item, 0, sizeof item);
-    item.struct_size = sizeof item;
-    return item;
-}
-
-/// No items, and the threshold 0.1.
-static inline vxt_batch vxt_batch_init(void) {
-    vxt_batch batch;
-    memset(&batch, 0, sizeof batch);
-    batch.struct_size = sizeof batch;
-    batch.threshold = 0.1;
-    return batch;
-}
 
 /// A part of a device buffer with the usage STORAGE_BUFFER | TRANSFER_SRC | TRANSFER_DST. The buffer is null where
 /// there is nothing.
@@ -147,23 +84,19 @@ typedef struct vxt_results_desc {
     size_t struct_size;     ///< sizeof
     uint64_t triangle_room; ///< with outputs: the sum over the pairs of the triangles of their meshes; default 0
     uint64_t label_room;    ///< with outputs: the sum over the pairs of the labels of their label maps; default 0
-    uint32_t contact_room;  ///< with outputs: a longer list is cut; default 2^16
+    uint32_t contact_room;  ///< with outputs: a longer list is cut; 0: 2^16
     uint32_t outputs;       ///< bits of vxt_output: if there are any, there is room for outputs; default none
-    uint32_t max_pairs;     ///< pairs of the largest batch; default 1
-    uint32_t read_back;     ///< a host copy is kept, for vxt_results_read(); default 1
+    uint32_t max_pairs;     ///< pairs of the largest batch; 0: 1
+    uint32_t no_read_back;  ///< 1: no host copy is kept for vxt_results_read()
     uint32_t timestamps;    ///< the device time is measured; default 0
     uint32_t queue_family;  ///< with timestamps: of the queue that will execute; default 0
-    /// CONSERVATIVE: clusters that a dispatch looks at, at most, 16 to 262144: voxtact::ResultsDesc::clustersAtOnce.
+    /// CERTIFIED: clusters that a dispatch looks at, at most, 16 to 262144: voxtact::ResultsDesc::clustersAtOnce.
     /// Default 0: by max_pairs. VXT_NO_CLUSTERS: none, for results that are for other projections.
     uint32_t clusters_at_once;
-    uint32_t clearances; ///< not 0: there is room for vxt_detector_desc::clearance_tolerance; default 0
+    uint32_t staged; ///< not 0: voxtact::ResultsDesc::staged, with what it asks of the caller; default 0
     /// Where the answers go, a PairResult for each pair: a part of a buffer of the caller's, which outlives the
     /// results: voxtact::ResultsDesc::into. Default null: a buffer of the results' own.
     vxt_buffer_range into;
-    uint32_t closest;          ///< not 0, with clearances: there is room for vxt_detector_desc::closest; default 0
-    uint32_t label_clearances; ///< with clearances: labels that there is room for with each of max_pairs; default 0
-    uint32_t motions;          ///< not 0: there is room for vxt_detector_desc::motion_resolution; default 0
-    uint32_t staged;           ///< not 0: voxtact::ResultsDesc::staged, with what it asks of the caller; default 0
 } vxt_results_desc;
 
 /// From the answers of one frame of a ring to those of the next in vxt_results_desc::into: voxtact::resultBytes().
@@ -174,30 +107,15 @@ static inline VkDeviceSize vxt_result_bytes(uint32_t max_pairs) {
 /// For vxt_results_desc::clusters_at_once.
 #define VXT_NO_CLUSTERS UINT32_C(0xffffffff)
 
-/// One pair, read back, no outputs.
-static inline vxt_results_desc vxt_results_desc_init(void) {
-    vxt_results_desc desc;
-    memset(&desc, 0, sizeof desc);
-    desc.struct_size = sizeof desc;
-    desc.contact_room = UINT32_C(1) << 16;
-    desc.max_pairs = 1;
-    desc.read_back = 1;
-    return desc;
-}
-
 /// The answers of a batch on the device, for the next pass; as voxtact::Results has them, and device_results.h.
 typedef enum vxt_device_part {
-    VXT_DEVICE_PAIRS = 0,            ///< a PairResult for each pair
-    VXT_DEVICE_TRIANGLE_COUNTS = 1,  ///< a uint for each triangle of each pair
-    VXT_DEVICE_TRIANGLE_MASK = 2,    ///< a bit for each triangle of each pair; each pair begins with a uint of its own
-    VXT_DEVICE_CONTACTS = 3,         ///< four uints: found, low and high word; the room; 0. Then the ContactResults
-    VXT_DEVICE_BOUNDS = 4,           ///< six uints for each pair
-    VXT_DEVICE_LABEL_COUNTS = 5,     ///< a uint for each label of each pair
-    VXT_DEVICE_CLEARANCES = 6,       ///< a ClearanceResult, 16 bytes, for each pair
-    VXT_DEVICE_CLOSEST = 7,          ///< a ClosestResult, 48 bytes, for each pair
-    VXT_DEVICE_LABEL_CLEARANCES = 8, ///< a ClearanceResult, 16 bytes, for each label of each pair
-    VXT_DEVICE_MOTIONS = 9,          ///< a MotionResult, 32 bytes, for each pair: of the way from its pose to the next
-    VXT_DEVICE_MAX = 0x7fffffff      ///< makes the type 32 bits wide
+    VXT_DEVICE_PAIRS = 0,           ///< a PairResult for each pair
+    VXT_DEVICE_TRIANGLE_COUNTS = 1, ///< a uint for each triangle of each pair
+    VXT_DEVICE_TRIANGLE_MASK = 2,   ///< a bit for each triangle of each pair; each pair begins with a uint of its own
+    VXT_DEVICE_CONTACTS = 3,        ///< four uints: found, low and high word; the room; 0. Then the ContactResults
+    VXT_DEVICE_BOUNDS = 4,          ///< six uints for each pair
+    VXT_DEVICE_LABEL_COUNTS = 5,    ///< a uint for each label of each pair
+    VXT_DEVICE_MAX = 0x7fffffff     ///< makes the type 32 bits wide
 } vxt_device_part;
 
 /// Where the answers of one batch in flight go: voxtact::Results.
@@ -215,7 +133,7 @@ VXT_CHECKED vxt_result vxt_results_read(vxt_results* results, vxt_answer* answer
 /// Ends it. Those of a ring are the ring's, and refused by doing nothing.
 VXT_API void vxt_results_destroy(vxt_results* results);
 
-/// What the passes of the projection CONSERVATIVE did for a batch: voxtact::CertifiedCounters, whose comments say of
+/// What the passes of the projection CERTIFIED did for a batch: voxtact::CertifiedCounters, whose comments say of
 /// what each is. Peaks are of the round that had most.
 typedef struct vxt_certified_counters {
     size_t struct_size;       ///< sizeof
@@ -245,26 +163,8 @@ typedef struct vxt_certified_counters {
     uint64_t cells_certain;   ///< of cells_seen, count without a decision: opaque all over, a triangle clearly in them
 } vxt_certified_counters;
 
-/// Nothing.
-static inline vxt_certified_counters vxt_certified_counters_init(void) {
-    vxt_certified_counters counters;
-    memset(&counters, 0, sizeof counters);
-    counters.struct_size = sizeof counters;
-    return counters;
-}
-
 /// Of an answer that a detector with vxt_detector_desc::counters gave; NOT_READY of any other.
 VXT_CHECKED vxt_result vxt_answer_counters(const vxt_answer* answer, vxt_certified_counters* counters);
-
-/// Of an answer of a detector with vxt_detector_desc::clearance_tolerance, in the order of the batch, with closest
-/// points where that had vxt_detector_desc::closest, and with those to labels where that had
-/// vxt_detector_desc::label_clearances; NOT_READY of any other that has pairs. The time that `clearances` then have is
-/// that of the answer.
-VXT_CHECKED vxt_result vxt_answer_clearances(const vxt_answer* answer, vxt_clearances* clearances);
-
-/// Of an answer of a detector with vxt_detector_desc::motion_resolution, in the order of the batch; none of any other.
-/// The time that `motions` then have is that of the answer.
-VXT_CHECKED vxt_result vxt_answer_motions(const vxt_answer* answer, vxt_motions* motions);
 
 /// Results for frames in flight: voxtact::ResultRing.
 typedef struct vxt_result_ring vxt_result_ring;
@@ -289,7 +189,7 @@ VXT_CHECKED vxt_result vxt_detector_create(const vxt_context* context, const vxt
 /// useful was recorded, and the command buffer must not be submitted.
 VXT_CHECKED vxt_result vxt_detector_cmd_detect(const vxt_detector* detector, VkCommandBuffer commands,
                                                const vxt_batch* batch, vxt_results* results);
-/// Which variant VXT_BOUNDARY_AUTO takes for an item at a threshold.
+/// Which variant VXT_BOUNDARY_AUTO takes for an item at a threshold above 0, to 1; 0: 0.1.
 VXT_CHECKED vxt_result vxt_detector_boundary_for(const vxt_detector* detector, const vxt_item* item, double threshold,
                                                  vxt_boundary* boundary);
 /// Ends it.

@@ -15,44 +15,25 @@ extern "C" {
 typedef struct vxt_volume_options {
     size_t struct_size; ///< sizeof
     const char* name;   ///< appears on the Vulkan objects; may be null
-    uint32_t bricks;    ///< keeps the range of values of every brick of 8^3 cells, which the projection CONSERVATIVE
+    uint32_t bricks;    ///< keeps the range of values of every brick of 8^3 cells, which the projection CERTIFIED
                         ///< needs; default 0
     uint32_t editable;  ///< allows edits; default 0
 } vxt_volume_options;
-
-/// No name, no bricks, no edits.
-static inline vxt_volume_options vxt_volume_options_init(void) {
-    vxt_volume_options options;
-    memset(&options, 0, sizeof options);
-    options.struct_size = sizeof options;
-    return options;
-}
 
 /// An image of the caller's: voxtact::WrappedVolume.
 typedef struct vxt_wrapped_volume {
     size_t struct_size; ///< sizeof
     VkImageView view;   ///< 3D, one mip level, component r sampled
     VkFormat format;    ///< R8_UNORM, R16_UNORM, R16_SNORM, R16_SFLOAT or R32_SFLOAT
-    /// While commands execute: SHADER_READ_ONLY_OPTIMAL, the default, READ_ONLY_OPTIMAL or GENERAL.
+    /// While commands execute: SHADER_READ_ONLY_OPTIMAL (0, too), READ_ONLY_OPTIMAL or GENERAL.
     VkImageLayout layout;
     vxt_grid grid;         ///< where its voxels are
-    double slope;          ///< value = slope * stored + intercept; default 1
+    double slope;          ///< value = slope * stored + intercept; 0: 1
     double intercept;      ///< in the image's units; default 0
     vxt_range boundary;    ///< with has_boundary: all values of the voxels on the image's faces
     uint32_t has_boundary; ///< lets VXT_BOUNDARY_AUTO clamp; default 0
     uint32_t bricks;       ///< as in vxt_volume_options; default 0
 } vxt_wrapped_volume;
-
-/// Slope 1.
-static inline vxt_wrapped_volume vxt_wrapped_volume_init(void) {
-    vxt_wrapped_volume wrapped;
-    memset(&wrapped, 0, sizeof wrapped);
-    wrapped.struct_size = sizeof wrapped;
-    wrapped.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-    wrapped.grid = vxt_grid_init();
-    wrapped.slope = 1;
-    return wrapped;
-}
 
 /// What is known of a volume on the device.
 typedef struct vxt_volume_info {
@@ -63,14 +44,6 @@ typedef struct vxt_volume_info {
     VkFormat format;    ///< of the image
     uint32_t has_range; ///< 0 for a wrapped volume, and after vxt_volume_cmd_copy()
 } vxt_volume_info;
-
-/// Nothing.
-static inline vxt_volume_info vxt_volume_info_init(void) {
-    vxt_volume_info info;
-    memset(&info, 0, sizeof info);
-    info.struct_size = sizeof info;
-    return info;
-}
 
 /// A 3D image on the device: voxtact::Volume.
 typedef struct vxt_volume vxt_volume;
@@ -112,22 +85,11 @@ VXT_API void vxt_volume_destroy(vxt_volume* volume);
 typedef struct vxt_wrapped_transfer_function {
     size_t struct_size;   ///< sizeof
     VkImageView view;     ///< 1D, opacity in component r
-    vxt_range domain;     ///< the values that the table covers; default 0..255
-    const float* table;   ///< the same table on the host, where the caller has it; else null. `conservative` needs it
+    vxt_range domain;     ///< the values that the table covers; lo < hi
+    const float* table;   ///< the same table on the host, where the caller has it; else null. `certified` needs it
     size_t table_size;    ///< entries of `table`
-    VkImageLayout layout; ///< while commands execute; default SHADER_READ_ONLY_OPTIMAL
-    uint32_t reserved;    ///< 0
+    VkImageLayout layout; ///< while commands execute; 0: SHADER_READ_ONLY_OPTIMAL
 } vxt_wrapped_transfer_function;
-
-/// The domain 0..255.
-static inline vxt_wrapped_transfer_function vxt_wrapped_transfer_function_init(void) {
-    vxt_wrapped_transfer_function wrapped;
-    memset(&wrapped, 0, sizeof wrapped);
-    wrapped.struct_size = sizeof wrapped;
-    wrapped.domain.hi = 255;
-    wrapped.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-    return wrapped;
-}
 
 /// Value -> opacity, on the device: voxtact::TransferFunction.
 typedef struct vxt_transfer_function vxt_transfer_function;
@@ -158,22 +120,12 @@ VXT_API void vxt_transfer_function_destroy(vxt_transfer_function* function);
 typedef struct vxt_mesh_options {
     size_t struct_size; ///< sizeof
     const char* name;   ///< appears on the Vulkan objects; may be null
-    uint32_t clusters;  ///< keeps clusters of triangles, for the projection CONSERVATIVE to skip; default 0
+    uint32_t clusters;  ///< keeps clusters of triangles, for the projection CERTIFIED to skip; default 0
     uint32_t editable;  ///< allows vxt_mesh_cmd_update() and vxt_mesh_cmd_copy(); default 0
     /// Bytes from one vertex to the next on the device; at least 12, the default; a multiple of 4. Where it is drawn,
     /// at most the device's maxVertexInputBindingStride.
     uint32_t vertex_stride;
-    uint32_t reserved; ///< 0
 } vxt_mesh_options;
-
-/// No name, no clusters, not editable, a stride of 12 bytes.
-static inline vxt_mesh_options vxt_mesh_options_init(void) {
-    vxt_mesh_options options;
-    memset(&options, 0, sizeof options);
-    options.struct_size = sizeof options;
-    options.vertex_stride = 12;
-    return options;
-}
 
 /// Buffers of the caller's: voxtact::WrappedMesh. Vertices are three floats at the start of a stride.
 typedef struct vxt_wrapped_mesh {
@@ -182,9 +134,9 @@ typedef struct vxt_wrapped_mesh {
     VkDeviceSize vertex_offset; ///< bytes, of the first position; a multiple of 4
     VkBuffer indices;           ///< usage INDEX_BUFFER; null: every three vertices are a triangle
     VkDeviceSize index_offset;  ///< bytes
-    uint32_t vertex_stride;     ///< bytes; as in vxt_mesh_options
+    uint32_t vertex_stride;     ///< bytes; 0: 12
     uint32_t vertex_count;      ///< vertices in the buffer
-    VkIndexType index_type;     ///< UINT16 or UINT32, the default
+    VkIndexType index_type;     ///< UINT16, which is 0, or UINT32
     uint32_t triangle_count;    ///< triangles that are drawn
     uint32_t storage;           ///< the buffers also have usage STORAGE_BUFFER; default 0
     /// As in vxt_mesh_options; not to be used before vxt_mesh_cmd_upload(), and vxt_mesh_cmd_refit() after changes.
@@ -193,16 +145,6 @@ typedef struct vxt_wrapped_mesh {
     /// order.
     const vxt_mesh_view* shape;
 } vxt_wrapped_mesh;
-
-/// A stride of 12 bytes and 32-bit indices.
-static inline vxt_wrapped_mesh vxt_wrapped_mesh_init(void) {
-    vxt_wrapped_mesh wrapped;
-    memset(&wrapped, 0, sizeof wrapped);
-    wrapped.struct_size = sizeof wrapped;
-    wrapped.vertex_stride = 12;
-    wrapped.index_type = VK_INDEX_TYPE_UINT32;
-    return wrapped;
-}
 
 /// A triangle mesh on the device: voxtact::Mesh.
 typedef struct vxt_mesh vxt_mesh;
@@ -220,7 +162,7 @@ VXT_CHECKED vxt_result vxt_mesh_cmd_upload(vxt_mesh* mesh, VkCommandBuffer comma
 VXT_API void vxt_mesh_release_staging(vxt_mesh* mesh);
 /// Bends an editable mesh: `vertex_count` vertices of three coordinates, as many as it has, come elsewhere, in
 /// command-buffer order: voxtact::Mesh::cmdUpdate(). Refused, it is as it was.
-VXT_CHECKED vxt_result vxt_mesh_cmd_update(vxt_mesh* mesh, VkCommandBuffer commands, const float* positions,
+VXT_CHECKED vxt_result vxt_mesh_cmd_update(vxt_mesh* mesh, VkCommandBuffer commands, const double* positions,
                                            size_t vertex_count);
 /// The same from a buffer with usage TRANSFER_SRC, whose vertices are as far apart as those of the mesh; `offset` is in
 /// bytes, a multiple of 4: voxtact::Mesh::cmdCopy().

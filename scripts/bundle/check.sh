@@ -20,7 +20,7 @@ while IFS= read -r file; do
     files=$((files + 1))
     short=${file#"$folder"/}
     while IFS= read -r path; do
-        IFS=: read -ra entries <<<"$path"
+        IFS=: read -ra entries <<<"$path:"
         for entry in "${entries[@]}"; do
             case $entry in
             "\$ORIGIN" | "\$ORIGIN/"*) ;;

@@ -2,30 +2,53 @@
 #pragma once
 
 #include "c/errors.h"
-#include "voxtact/results.h"
+#include "voxtact/cpu.h"
 
+#include <cstddef>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
+namespace voxtact::c {
+
+/// A column of a table: where it is in a row.
+struct ColumnFacts {
+    const char* table;
+    const char* name;
+    const char* unit;
+    const char* text;
+    const char* choices;
+    vxt_type type;
+    std::uint32_t elements;
+    std::size_t offset;
+};
+
+/// A table of an answer, whose rows are structs.
+struct AnswerTable {
+    std::span<const ColumnFacts> columns;
+    std::shared_ptr<const void> memory; ///< keeps `data`
+    const std::byte* data = nullptr;
+    std::size_t rows = 0;
+    std::size_t stride = 0;
+};
+
+} // namespace voxtact::c
+
 struct vxt_answer {
-    std::vector<vxt_pair> pairs;
-    std::vector<vxt_touched_triangle> triangles;
-    std::vector<vxt_contact> contacts;
-    std::vector<vxt_box> bounds;
-    std::vector<vxt_label_count> labels;
-    std::uint64_t contactsFound = 0;
+    std::vector<voxtact::c::AnswerTable> tables;
     std::optional<voxtact::CertifiedCounters> counters;
-    std::optional<std::vector<voxtact::PairClearance>> clearances; ///< where they were measured
-    std::vector<voxtact::LabelClearance> labelClearances;
-    std::vector<voxtact::SegmentMotion> motions;
-    double gpuMilliseconds = 0;
-    double wallMilliseconds = 0;
 };
 
 namespace voxtact::c {
 
-/// The C interface's form of an answer.
+// The C interface's form of each answer.
+[[nodiscard]] vxt_answer toAnswer(const TouchAnswer& answer);
 [[nodiscard]] vxt_answer toAnswer(const BatchAnswer& answer);
+[[nodiscard]] vxt_answer toAnswer(const DistanceAnswer& answer);
+[[nodiscard]] vxt_answer toAnswer(const AreaAnswer& answer);
+[[nodiscard]] vxt_answer toAnswer(const OverlapAnswer& answer);
+[[nodiscard]] vxt_answer toAnswer(const MotionAnswer& answer);
+[[nodiscard]] vxt_answer toAnswer(const PlanAnswer& answer);
 
 } // namespace voxtact::c

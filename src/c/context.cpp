@@ -8,7 +8,7 @@ using namespace voxtact::c;
 namespace voxtact::c {
 
 ContextDesc toContextDesc(const vxt_context_desc* given) {
-    const vxt_context_desc desc = readStruct(given, vxt_context_desc_init(), "description of the context");
+    const vxt_context_desc desc = readStruct(given, zero<vxt_context_desc>(), "description of the context");
     return {.getInstanceProcAddr = desc.get_instance_proc_addr,
             .instance = desc.instance,
             .physicalDevice = desc.physical_device,
@@ -28,7 +28,7 @@ ContextDesc toContextDesc(const vxt_context_desc* given) {
 }
 
 QueueAccess toQueue(const vxt_queue* given) {
-    const vxt_queue queue = readStruct(given, vxt_queue_init(), "queue");
+    const vxt_queue queue = readStruct(given, zero<vxt_queue>(), "queue");
     return {queue.queue, queue.family, queue.lock, queue.unlock, queue.user};
 }
 
@@ -54,7 +54,7 @@ vxt_result vxt_requirement_get(size_t index, vxt_requirement* requirement) {
                    "requirement " + std::to_string(index) + ": there are " + std::to_string(all.size()));
         }
         const Requirement& found = all[index];
-        need(requirement, "requirement") = {found.feature, found.structure, found.without, found.required ? 1U : 0U, 0};
+        need(requirement, "requirement") = {found.feature, found.structure, found.without, found.required ? 1U : 0U};
     });
 }
 

@@ -15,7 +15,7 @@ static_assert(VXT_SCALAR_FLOAT32 == static_cast<int>(ScalarType::Float32));
 static_assert(VXT_OUTPUT_TRIANGLES == 1 && VXT_OUTPUT_CONTACTS == 2 && VXT_OUTPUT_BOUNDS == 4 &&
               VXT_OUTPUT_LABELS == 8);
 
-// What the initialisers of the header repeat as numbers is what C++ has as constants.
+// The comments of the headers repeat these numbers.
 static_assert(kDefaultThreshold == 0.1 && kDefaultTableSize == 256 && kDefaultMaxDepth == 10);
 static_assert(kDefaultResolution == 1.0 / 64 && kDefaultSamplesPerVoxel == 1);
 
@@ -34,14 +34,16 @@ Vec3 toVec3(const double* vector, const char* what) {
 }
 
 Grid toGrid(const vxt_grid& grid) {
-    if (grid.reserved != 0) {
-        refuse(ErrorCode::Unsupported, "grid: reserved is not 0");
-    }
+    const auto isSet = [](double number) { return number != 0; };
     Grid out;
     std::copy_n(grid.size, 3, out.size.begin());
-    std::copy_n(grid.spacing, 3, out.spacing.begin());
     std::copy_n(grid.origin, 3, out.origin.begin());
-    std::copy_n(grid.direction, 9, out.direction.begin());
+    if (std::ranges::any_of(grid.spacing, isSet)) {
+        std::copy_n(grid.spacing, 3, out.spacing.begin());
+    }
+    if (std::ranges::any_of(grid.direction, isSet)) {
+        std::copy_n(grid.direction, 9, out.direction.begin());
+    }
     return out;
 }
 
@@ -52,7 +54,7 @@ Grid checkedGrid(const vxt_grid* grid) {
 }
 
 vxt_grid fromGrid(const Grid& grid) noexcept {
-    vxt_grid out = vxt_grid_init();
+    vxt_grid out{};
     std::ranges::copy(grid.size, out.size);
     std::ranges::copy(grid.spacing, out.spacing);
     std::ranges::copy(grid.origin, out.origin);
@@ -61,12 +63,12 @@ vxt_grid fromGrid(const Grid& grid) noexcept {
 }
 
 VolumeView toVolumeView(const vxt_volume_view* view) {
-    const vxt_volume_view given = readStruct(view, vxt_volume_view_init(), "volume");
+    const vxt_volume_view given = readStruct(view, zero<vxt_volume_view>(), "volume");
     return {toGrid(given.grid), number<ScalarType>(given.type), toBytes(given.voxels, given.bytes, "volume: voxels")};
 }
 
 vxt_volume_view fromVolumeView(const VolumeView& view) noexcept {
-    vxt_volume_view out = vxt_volume_view_init();
+    vxt_volume_view out = zero<vxt_volume_view>();
     out.voxels = view.voxels.data();
     out.bytes = view.voxels.size();
     out.grid = fromGrid(view.grid);
@@ -75,13 +77,13 @@ vxt_volume_view fromVolumeView(const VolumeView& view) noexcept {
 }
 
 MeshView toMeshView(const vxt_mesh_view* view) {
-    const vxt_mesh_view given = readStruct(view, vxt_mesh_view_init(), "mesh");
+    const vxt_mesh_view given = readStruct(view, zero<vxt_mesh_view>(), "mesh");
     return {toSpan(given.positions, times(given.vertex_count, 3, "mesh: vertices"), "mesh: positions"),
             toSpan(given.indices, times(given.triangle_count, 3, "mesh: triangles"), "mesh: indices")};
 }
 
 vxt_mesh_view fromMeshView(const MeshView& view) noexcept {
-    vxt_mesh_view out = vxt_mesh_view_init();
+    vxt_mesh_view out = zero<vxt_mesh_view>();
     out.positions = view.positions.data();
     out.vertex_count = view.positions.size() / 3;
     out.indices = view.indices.data();
@@ -90,7 +92,7 @@ vxt_mesh_view fromMeshView(const MeshView& view) noexcept {
 }
 
 vxt_mesh_facts fromFacts(const MeshFacts& facts) noexcept {
-    return {fromBox(facts.bounds), facts.vertices, facts.triangles, facts.degenerate, 0};
+    return {fromBox(facts.bounds), facts.vertices, facts.triangles, facts.degenerate, facts.rounding};
 }
 
 Box toBox(const vxt_box& box) noexcept {
@@ -173,7 +175,7 @@ std::span<const std::byte> toBytes(const void* bytes, std::size_t count, const c
 }
 
 TransferFunctionOf::TransferFunctionOf(const vxt_transfer_function_desc* given)
-    : given_(readStruct(given, vxt_transfer_function_desc_init(), "transfer function")) {
+    : given_(readStruct(given, zero<vxt_transfer_function_desc>(), "transfer function")) {
     times(given_.point_count, 2, "transfer function: points");
     for (const vxt_control_point& point : toSpan(given_.points, given_.point_count, "transfer function: points")) {
         points_.push_back({point.value, point.opacity});
@@ -181,7 +183,7 @@ TransferFunctionOf::TransferFunctionOf(const vxt_transfer_function_desc* given)
 }
 
 TransferFunctionDesc TransferFunctionOf::desc() const noexcept {
-    return {points_, toRange(given_.domain), given_.table_size};
+    return {points_, toRange(given_.domain), orDefault(given_.table_size, kDefaultTableSize)};
 }
 
 } // namespace voxtact::c

@@ -4,6 +4,7 @@
 #include "c/structs.h"
 #include "voxtact/results.h"
 
+#include <cmath>
 #include <limits>
 
 /// Data of the C interface as the C++ one takes it, and back. Arrays are looked at where they are, never copied, but
@@ -39,6 +40,11 @@ void writeMat4(double* out, const Mat4& matrix, const char* what);
 void writeVec3(double* out, const Vec3& vector, const char* what);
 /// A view that no projection with a camera accepts where there is none.
 [[nodiscard]] View toView(const vxt_view* view) noexcept;
+/// 0, as in a struct that is all zero, stands for the default, and -0 for 0.
+[[nodiscard]] inline double thresholdOf(double given) noexcept {
+    const double zero = std::signbit(given) ? 0 : kDefaultThreshold;
+    return given == 0 ? zero : given;
+}
 [[nodiscard]] Outputs toOutputs(std::uint32_t outputs, double maxDepth);
 /// Where they are; 16 doubles per pose.
 [[nodiscard]] std::span<const Mat4> toPoses(const double* poses, std::size_t count, const char* what);

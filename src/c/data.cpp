@@ -55,15 +55,12 @@ vxt_result vxt_sample_table(const vxt_transfer_function_desc* desc, float* table
 }
 
 vxt_result vxt_check_opacity(const vxt_transfer_function_desc* desc, const vxt_range* data, double threshold,
-                             vxt_range* lost, size_t room, vxt_opacity_facts* facts) {
+                             vxt_opacity_facts* facts) {
     return call([&] {
         const vxt_range& values = need(data, "data");
         vxt_opacity_facts& out = need(facts, "facts");
         const OpacityFacts found = take(checkOpacity(TransferFunctionOf(desc).desc(), toRange(values), threshold));
-        for (std::size_t i = 0; i < std::min(room, found.lost.size()); ++i) {
-            (&need(lost, "lost"))[i] = fromRange(found.lost[i]);
-        }
-        out = {found.spacing, found.lost.size(), found.reaches ? 1U : 0U, found.any ? 1U : 0U};
+        out = {found.moved, found.reaches ? 1U : 0U, found.any ? 1U : 0U};
     });
 }
 
@@ -128,6 +125,17 @@ vxt_result vxt_transform_box(const double b_from_a[16], const vxt_box* box, vxt_
     });
 }
 
+vxt_result vxt_boxes_at(const double* world_from_object, size_t count, const vxt_box* box, vxt_box* boxes) {
+    return call([&] {
+        const std::span<const Mat4> poses = toPoses(world_from_object, count, "world_from_object");
+        const Box of = toBox(need(box, "box"));
+        if (!poses.empty()) {
+            std::ranges::transform(poses, &need(boxes, "boxes"),
+                                   [&](const Mat4& pose) { return fromBox(transformBox(pose, of)); });
+        }
+    });
+}
+
 vxt_result vxt_overlapping_pairs(const vxt_box* left, size_t left_count, const vxt_box* right, size_t right_count,
                                  vxt_box_pairs** pairs) {
     return create(pairs, [&] {
@@ -171,6 +179,16 @@ vxt_result vxt_labels_at(const vxt_labels* labels, const double world[3], int32_
     return call([&] {
         const LabelData& data = need(labels, "labels").object;
         need(label, "label") = data.values[labelAt(data, toVec3(world, "world"))];
+    });
+}
+
+vxt_result vxt_labels_at_points(const vxt_labels* labels, const double* points, size_t count, int32_t* found) {
+    return call([&] {
+        const LabelData& data = need(labels, "labels").object;
+        const std::span<const double> all = toSpan(points, times(count, 3, "points"), "points");
+        for (std::size_t i = 0; i < count; ++i) {
+            (&need(found, "found"))[i] = data.values[labelAt(data, toVec3(&all[3 * i], "points"))];
+        }
     });
 }
 

@@ -9,56 +9,19 @@ using namespace voxtact::c;
 
 namespace {
 
-using DeviceBatch = BatchOf<Batch, BatchItem>;
-
-std::optional<ClearanceSearch> searchOf(const vxt_detector_desc& desc) {
-    if (desc.clearance_tolerance == 0) {
-        if (desc.max_clearance != 0) {
-            refuse(ErrorCode::InvalidArgument, "detector: max_clearance is given, and clearance_tolerance is 0");
-        }
-        return std::nullopt;
-    }
-    ClearanceSearch search{.tolerance = desc.clearance_tolerance};
-    if (desc.max_clearance != 0) {
-        search.maximum = desc.max_clearance;
-    }
-    return search;
-}
-
-std::optional<PoseTolerance> toleranceOf(const vxt_detector_desc& desc) {
-    if (desc.pose_distance == 0 && desc.pose_angle == 0) {
-        return std::nullopt;
-    }
-    return PoseTolerance{desc.pose_distance, desc.pose_angle};
-}
-
-std::optional<MotionSearch> motionOf(const vxt_detector_desc& desc) {
-    if (desc.motion_resolution == 0) {
-        return std::nullopt;
-    }
-    return MotionSearch{desc.motion_resolution, number<Interpolation>(desc.motion_interpolation)};
-}
-
 DetectorDesc toDesc(const vxt_detector_desc* given) {
-    const vxt_detector_desc desc = readOptions(given, vxt_detector_desc_init(), "detector");
+    const vxt_detector_desc desc = readOptions(given, zero<vxt_detector_desc>(), "detector");
     return {.method = number<CountingMethod>(desc.method),
             .projection = number<Projection>(desc.projection),
             .filter = number<Filter>(desc.filter),
             .boundary = number<Boundary>(desc.boundary),
-            .outputs = toOutputs(desc.outputs, desc.max_depth),
-            .samplesPerVoxel = desc.samples_per_voxel,
-            .resolution = desc.resolution,
+            .outputs = toOutputs(desc.outputs, orDefault(desc.max_depth, kDefaultMaxDepth)),
+            .samplesPerVoxel = orDefault(desc.samples_per_voxel, kDefaultSamplesPerVoxel),
+            .resolution = orDefault(desc.resolution, kDefaultResolution),
             .stopAtFirst = desc.stop_at_first != 0,
             .counters = desc.counters != 0,
             .overestimate = desc.overestimate != 0,
-            .devicePoses = desc.device_poses != 0,
-            .margin = desc.margin,
-            .poseTolerance = toleranceOf(desc),
-            .clearance = searchOf(desc),
-            .closest = desc.closest != 0,
-            .labelClearances = desc.label_clearances != 0,
-            .labelsAtAnyOpacity = desc.labels_at_any_opacity != 0,
-            .motion = motionOf(desc)};
+            .devicePoses = desc.device_poses != 0};
 }
 
 } // namespace
@@ -73,7 +36,7 @@ vxt_result vxt_detector_cmd_detect(const vxt_detector* detector, VkCommandBuffer
     return call(detector, [&] {
         const Detector& by = need(detector, "detector").object;
         Results& to = need(results, "results").object.get();
-        const DeviceBatch of(batch, vxt_batch_init(), vxt_item_init());
+        const DeviceBatch of(batch);
         take(by.cmdDetect(commands, of.batch(), to));
     });
 }
@@ -82,10 +45,10 @@ vxt_result vxt_detector_boundary_for(const vxt_detector* detector, const vxt_ite
                                      vxt_boundary* boundary) {
     return call(detector, [&] {
         const Detector& by = need(detector, "detector").object;
-        const BatchItem of = DeviceBatch::toItem(readStruct(item, vxt_item_init(), "item"));
+        const BatchItem of = DeviceBatch::toItem(readStruct(item, zero<vxt_item>(), "item"));
         need(of.volume, "item: volume");
         need(of.transferFunction, "item: transfer function");
-        need(boundary, "boundary") = number<vxt_boundary>(by.boundaryFor(of, threshold));
+        need(boundary, "boundary") = number<vxt_boundary>(by.boundaryFor(of, thresholdOf(threshold)));
     });
 }
 
@@ -106,7 +69,7 @@ vxt_result vxt_blocking_detector_detect(vxt_blocking_detector* detector, const v
     return call(detector, [&] {
         BlockingDetector& by = need(detector, "detector").object;
         vxt_answer& to = need(answer, "answer");
-        const DeviceBatch of(batch, vxt_batch_init(), vxt_item_init());
+        const DeviceBatch of(batch);
         to = toAnswer(take(by.detect(of.batch())));
     });
 }

@@ -29,14 +29,10 @@ std::filesystem::path toPath(const char* path) {
 }
 
 io::VolumeReadOptions toOptions(const vxt_volume_read_options* given) {
-    const vxt_volume_read_options options = readOptions(given, vxt_volume_read_options_init(), "options");
-    if (options.frame < -1 || options.frame > std::int64_t{UINT32_MAX}) {
-        refuse(ErrorCode::InvalidArgument,
-               "options: frame is " + std::to_string(options.frame) + "; it is counted from 0, and -1 is the only one");
-    }
+    const vxt_volume_read_options options = readOptions(given, zero<vxt_volume_read_options>(), "options");
     io::VolumeReadOptions out;
-    if (options.frame >= 0) {
-        out.frame = static_cast<std::uint32_t>(options.frame);
+    if (options.choose_frame != 0) {
+        out.frame = options.frame;
     }
     if (options.series != nullptr) {
         out.series = options.series;
@@ -45,8 +41,12 @@ io::VolumeReadOptions toOptions(const vxt_volume_read_options* given) {
 }
 
 io::MeshReadOptions toOptions(const vxt_mesh_read_options* given) {
-    const vxt_mesh_read_options options = readOptions(given, vxt_mesh_read_options_init(), "options");
-    return {.space = options.ras != 0 ? io::MeshSpace::RAS : io::MeshSpace::LPS, .scale = options.scale};
+    const vxt_mesh_read_options options = readOptions(given, zero<vxt_mesh_read_options>(), "options");
+    io::MeshReadOptions reading{.space = {}, .scale = orDefault(options.scale, 1.0)};
+    if (options.ras != 0) {
+        reading.space = io::MeshSpace::RAS;
+    }
+    return reading;
 }
 
 std::vector<vxt_control_point> fromPoints(const std::vector<ControlPoint>& points) {
@@ -55,6 +55,13 @@ std::vector<vxt_control_point> fromPoints(const std::vector<ControlPoint>& point
         out.push_back({point.value, point.opacity});
     }
     return out;
+}
+
+/// A note that lives until the thread asks for another; "" where it fails.
+template <class Make> const char* keptNote(const Make& make) noexcept {
+    thread_local std::string kept;
+    const vxt_result made = call([&] { kept = make(); });
+    return made == VXT_OK ? kept.c_str() : "";
 }
 
 } // namespace
@@ -87,6 +94,27 @@ vxt_result vxt_read_mesh_bytes(const char* name, const void* content, size_t byt
 
 vxt_result vxt_write_mesh(const char* path, const vxt_mesh_view* mesh) {
     return call([&] { take(io::writeMesh(toPath(path), toMeshView(mesh))); });
+}
+
+vxt_result vxt_grid_shear(const vxt_grid* grid, double* degrees, double* max_degrees) {
+    return call([&] {
+        need(degrees, "degrees") = io::shearDegrees(toGrid(need(grid, "grid")));
+        if (max_degrees != nullptr) {
+            *max_degrees = io::kMaxShear;
+        }
+    });
+}
+
+const char* vxt_grid_note(const vxt_grid* grid) {
+    return keptNote([&] { return io::shearNote(toGrid(need(grid, "grid"))); });
+}
+
+const char* vxt_mesh_note(const vxt_mesh_facts* facts) {
+    return keptNote([&] {
+        MeshFacts of;
+        of.rounding = need(facts, "facts").rounding;
+        return io::roundingNote(of);
+    });
 }
 
 vxt_result vxt_read_camera(const char* path, double clip_from_world[16]) {

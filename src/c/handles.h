@@ -40,23 +40,11 @@ struct vxt_host_transfer_function {
 struct vxt_host_mesh {
     voxtact::cpu::Mesh object;
 };
-struct vxt_host_detector {
-    voxtact::cpu::Detector object;
+struct vxt_host_engine {
+    voxtact::cpu::HostEngine object;
 };
-struct vxt_host_area_meter {
-    voxtact::cpu::AreaMeter object;
-};
-struct vxt_host_clearance_meter {
-    voxtact::cpu::ClearanceMeter object;
-};
-struct vxt_host_clearance_tracker {
-    voxtact::cpu::ClearanceTracker object;
-};
-struct vxt_host_motion_checker {
-    voxtact::cpu::MotionChecker object;
-};
-struct vxt_host_planner {
-    voxtact::cpu::Planner object;
+struct vxt_tracker {
+    voxtact::cpu::DistanceTracker object;
 };
 
 namespace voxtact::c {

@@ -1,28 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The host engine.
-#include "c/answer.h"
-#include "c/batch.h"
+// What the host engine is asked about.
 #include "c/convert.h"
 #include "c/handles.h"
 
 using namespace voxtact;
 using namespace voxtact::c;
-
-namespace {
-
-cpu::DetectorDesc toDesc(const vxt_host_detector_desc* given) {
-    const vxt_host_detector_desc desc = readOptions(given, vxt_host_detector_desc_init(), "detector");
-    return {.threads = desc.threads,
-            .boundary = number<Boundary>(desc.boundary),
-            .stopAtFirst = desc.stop_at_first != 0,
-            .projection = number<Projection>(desc.projection),
-            .outputs = toOutputs(desc.outputs, desc.max_depth),
-            .samplesPerVoxel = desc.samples_per_voxel,
-            .resolution = desc.resolution,
-            .mostContacts = desc.most_contacts};
-}
-
-} // namespace
 
 vxt_result vxt_host_volume_create(const vxt_volume_view* view, vxt_host_volume** volume) {
     return create(volume, [&] { return take(cpu::Volume::create(toVolumeView(view))); });
@@ -45,6 +27,17 @@ vxt_result vxt_host_volume_set_ball(vxt_host_volume* volume, const double centre
 
 vxt_result vxt_host_volume_write(vxt_host_volume* volume, const vxt_voxel_box* box, const void* voxels, size_t bytes) {
     return call([&] { take(need(volume, "volume").object.write(toVoxelBox(box), toBytes(voxels, bytes, "voxels"))); });
+}
+
+vxt_result vxt_host_volume_read(const vxt_host_volume* volume, const vxt_voxel_box* box, void* voxels, size_t bytes) {
+    return call([&] {
+        const VoxelBox of = toVoxelBox(box);
+        auto* const to = static_cast<std::byte*>(voxels);
+        if (bytes != 0) {
+            (void)need(to, "voxels");
+        }
+        take(need(volume, "volume").object.read(of, {to, bytes}));
+    });
 }
 
 void vxt_host_volume_destroy(vxt_host_volume* volume) {
@@ -72,7 +65,7 @@ void vxt_host_mesh_destroy(vxt_host_mesh* mesh) {
     delete mesh;
 }
 
-vxt_result vxt_host_mesh_update(vxt_host_mesh* mesh, const float* positions, size_t vertex_count) {
+vxt_result vxt_host_mesh_update(vxt_host_mesh* mesh, const double* positions, size_t vertex_count) {
     return call([&] {
         take(need(mesh, "mesh").object.update(toSpan(positions, times(vertex_count, 3, "positions"), "positions")));
     });
@@ -94,25 +87,4 @@ void vxt_cancel_set(vxt_cancel* cancel, uint32_t set) {
 
 void vxt_cancel_destroy(vxt_cancel* cancel) {
     delete cancel;
-}
-
-vxt_result vxt_host_detector_create(const vxt_host_detector_desc* desc, vxt_host_detector** detector) {
-    return create(detector, [&] { return take(cpu::Detector::create(toDesc(desc))); });
-}
-
-vxt_result vxt_host_detector_detect(vxt_host_detector* detector, const vxt_host_batch* batch, vxt_answer* answer) {
-    return call([&] {
-        cpu::Detector& by = need(detector, "detector").object;
-        vxt_answer& to = need(answer, "answer");
-        const HostBatchOf of(batch, vxt_host_batch_init(), vxt_host_item_init());
-        to = toAnswer(take(by.detect(of.batch())));
-    });
-}
-
-uint32_t vxt_host_detector_threads(const vxt_host_detector* detector) {
-    return detector == nullptr ? 0 : detector->object.threads();
-}
-
-void vxt_host_detector_destroy(vxt_host_detector* detector) {
-    delete detector;
 }

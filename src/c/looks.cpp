@@ -135,6 +135,12 @@ void vxt_mesh_colour(size_t number, double colour[3]) {
     }
 }
 
+void vxt_plain_colour(double colour[3]) {
+    if (colour != nullptr) {
+        std::ranges::copy(plainColours().front().colour, colour);
+    }
+}
+
 double vxt_paint_through(vxt_paint paint) {
     return paint == VXT_PAINT_PLAIN ? 0 : throughFor(static_cast<Paint>(paint));
 }

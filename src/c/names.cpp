@@ -3,6 +3,10 @@
 #include "c/convert.h"
 #include "voxtact/methods.h"
 
+#define VOXTACT_VERSION_TEXT(major, minor, patch)                                                                      \
+    VOXTACT_QUOTED(major) "." VOXTACT_QUOTED(minor) "." VOXTACT_QUOTED(patch)
+#define VOXTACT_QUOTED(number) #number
+
 using namespace voxtact;
 using namespace voxtact::c;
 
@@ -17,7 +21,7 @@ static_assert(VXT_METHOD_CPU == static_cast<int>(CountingMethod::Cpu));
 static_assert(VXT_PROJECTION_VIEW == static_cast<int>(Projection::View));
 static_assert(VXT_PROJECTION_TWO_VIEW == static_cast<int>(Projection::TwoView));
 static_assert(VXT_PROJECTION_DOMINANT_AXIS == static_cast<int>(Projection::DominantAxis));
-static_assert(VXT_PROJECTION_CONSERVATIVE == static_cast<int>(Projection::Conservative));
+static_assert(VXT_PROJECTION_CERTIFIED == static_cast<int>(Projection::Certified));
 static_assert(VXT_FILTER_HARDWARE == static_cast<int>(Filter::Hardware));
 static_assert(VXT_FILTER_EXACT == static_cast<int>(Filter::Exact));
 static_assert(VXT_BOUNDARY_AUTO == static_cast<int>(Boundary::Auto));
@@ -37,7 +41,7 @@ template <class Found, class To> void keepNumber(const Found& found, const char*
 } // namespace
 
 const char* vxt_version(void) {
-    return VOXTACT_VERSION;
+    return VOXTACT_VERSION_TEXT(VOXTACT_VERSION_MAJOR, VOXTACT_VERSION_MINOR, VOXTACT_VERSION_PATCH);
 }
 
 const char* vxt_method_name(vxt_method method) {

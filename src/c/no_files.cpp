@@ -37,6 +37,18 @@ vxt_result vxt_write_mesh(const char*, const vxt_mesh_view*) {
     return absent(kNoFiles);
 }
 
+vxt_result vxt_grid_shear(const vxt_grid*, double*, double*) {
+    return absent(kNoFiles);
+}
+
+const char* vxt_grid_note(const vxt_grid*) {
+    return "";
+}
+
+const char* vxt_mesh_note(const vxt_mesh_facts*) {
+    return "";
+}
+
 vxt_result vxt_read_camera(const char*, double[16]) {
     return absent(kNoFiles);
 }

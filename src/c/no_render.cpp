@@ -64,6 +64,12 @@ void vxt_mesh_colour(size_t, double colour[3]) {
     }
 }
 
+void vxt_plain_colour(double colour[3]) {
+    if (colour != nullptr) {
+        std::fill_n(colour, 3, 0);
+    }
+}
+
 double vxt_paint_through(vxt_paint) {
     return 0;
 }

@@ -27,7 +27,7 @@ SceneMesh toSceneMesh(const vxt_scene_mesh& given) {
     out.meshColour = toColour(given.colour);
     out.paint = {.what = number<Paint>(given.paint),
                  .transferFunction = objectOf(given.transfer_function),
-                 .threshold = given.threshold,
+                 .threshold = thresholdOf(given.threshold),
                  .triangles = objectOf(given.triangles),
                  .vertices = objectOf(given.vertices),
                  .contactColour = toColour(given.contact_colour),
@@ -64,9 +64,9 @@ class SceneOf {
         }
         const std::span<const vxt_clip_plane> planes =
             toSpan(given_.clip_planes, given_.clip_plane_count, "clip_planes");
-        if (planes.size() > kMostClipPlanes) { // before they are read
+        if (planes.size() > kMaxClipPlanes) { // before they are read
             refuse(ErrorCode::InvalidArgument, "the scene has " + std::to_string(planes.size()) +
-                                                   " clip planes, the most is " + std::to_string(kMostClipPlanes));
+                                                   " clip planes, the most is " + std::to_string(kMaxClipPlanes));
         }
         for (const vxt_clip_plane& plane : planes) {
             planes_.push_back({toVec3(plane.normal, "normal"), plane.offset});

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What is known of a device before there is a context, and of its methods.
 #include "c/convert_vulkan.h"
-#include "voxtact/samples.h"
 
 using namespace voxtact;
 using namespace voxtact::c;
@@ -18,9 +17,8 @@ struct vxt_report {
 namespace {
 
 /// A row of a method, whose text is put in later: put() has all of them then.
-vxt_method_report toRow(CountingMethod method, bool available, bool trusted, double pairsPerSecond) {
+vxt_method_report toRow(CountingMethod method, bool available, bool trusted) {
     vxt_method_report row{};
-    row.pairs_per_second = pairsPerSecond;
     row.method = number<vxt_method>(method);
     row.available = available ? 1 : 0;
     row.trusted = trusted ? 1 : 0;
@@ -43,14 +41,14 @@ vxt_report toReport(CheckReport found) {
     report.lines = std::move(found.missing);
     for (MethodSupport& method : found.methods) {
         report.texts.push_back(std::move(method.reason));
-        report.methods.push_back(toRow(method.method, method.available, false, 0));
+        report.methods.push_back(toRow(method.method, method.available, false));
     }
     return finished(std::move(report));
 }
 
-void put(vxt_report& report, const SelfTestVerdict& verdict, double pairsPerSecond) {
+void put(vxt_report& report, const SelfTestVerdict& verdict) {
     report.texts.push_back(verdict.text);
-    report.methods.push_back(toRow(verdict.method, verdict.available, verdict.trusted, pairsPerSecond));
+    report.methods.push_back(toRow(verdict.method, verdict.available, verdict.trusted));
 }
 
 /// A report is made by a context and lives without it.
@@ -70,7 +68,7 @@ vxt_result createReport(const vxt_context* context, const vxt_queue* queue, vxt_
 vxt_result vxt_report_get(const vxt_report* report, vxt_report_view* view) {
     return call([&] {
         const vxt_report& from = need(report, "report");
-        vxt_report_view out = vxt_report_view_init();
+        vxt_report_view out = zero<vxt_report_view>();
         out.missing = handOut<const char*>(from.missing, &out.missing_count);
         out.methods = handOut<vxt_method_report>(from.methods, &out.method_count);
         out.usable = from.usable ? 1 : 0;
@@ -86,19 +84,22 @@ vxt_result vxt_check(const vxt_context_desc* desc, vxt_report** report) {
     return create(report, [&] { return toReport(check(toContextDesc(desc))); });
 }
 
-vxt_result vxt_self_test(const vxt_context* context, const vxt_queue* queue, vxt_report** report) {
-    return createReport(context, queue, report, [](const Context& on, const QueueAccess& by, vxt_report& out) {
-        for (const SelfTestVerdict& verdict : take(selfTest(on, by))) {
-            put(out, verdict, 0);
+vxt_result vxt_context_methods(const vxt_context* context, vxt_report** report) {
+    return call(context, [&] {
+        vxt_report*& place = need(report, "the place for the new object");
+        place = nullptr;
+        vxt_report made;
+        for (const MethodSupport& support : need(context, "context").object.methods()) {
+            put(made, {support.method, support.available, false, support.reason});
         }
+        place = std::make_unique<vxt_report>(finished(std::move(made))).release();
     });
 }
 
-vxt_result vxt_measure_methods(const vxt_context* context, const vxt_queue* queue, vxt_report** report) {
+vxt_result vxt_self_test(const vxt_context* context, const vxt_queue* queue, vxt_report** report) {
     return createReport(context, queue, report, [](const Context& on, const QueueAccess& by, vxt_report& out) {
-        const MeasureScene scene = take(makeMeasureScene());
-        for (const MethodSpeed& speed : take(measureMethods(on, by, {.scene = &scene}))) {
-            put(out, speed.verdict, speed.pairsPerSecond);
+        for (const SelfTestVerdict& verdict : take(selfTest(on, by))) {
+            put(out, verdict);
         }
     });
 }

@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Results and rings of them.
 #include "c/answer.h"
-#include "c/clearances.h"
 #include "c/convert_vulkan.h"
-#include "c/motions.h"
-
-#include <algorithm>
-#include <iterator>
 
 using namespace voxtact;
 using namespace voxtact::c;
@@ -14,22 +9,18 @@ using namespace voxtact::c;
 namespace {
 
 ResultsDesc toDesc(const vxt_results_desc* given) {
-    const vxt_results_desc desc = readOptions(given, vxt_results_desc_init(), "results");
-    ResultsDesc out{.maxPairs = desc.max_pairs,
-                    .readBack = desc.read_back != 0,
+    const vxt_results_desc desc = readOptions(given, zero<vxt_results_desc>(), "results");
+    ResultsDesc out{.maxPairs = orDefault(desc.max_pairs, 1U),
+                    .readBack = desc.no_read_back == 0,
                     .timestamps = desc.timestamps != 0,
                     .queueFamily = desc.queue_family,
-                    .clearances = desc.clearances != 0,
-                    .closest = desc.closest != 0,
-                    .labelClearances = desc.label_clearances,
-                    .motions = desc.motions != 0,
                     .staged = desc.staged != 0,
                     .into = {desc.into.buffer, desc.into.offset, desc.into.size}};
     if (desc.clusters_at_once != 0) {
         out.clustersAtOnce = desc.clusters_at_once == VXT_NO_CLUSTERS ? 0 : desc.clusters_at_once;
     }
     if (toOutputs(desc.outputs, kDefaultMaxDepth).any()) {
-        out.room = OutputRoom{desc.triangle_room, desc.label_room, desc.contact_room};
+        out.room = OutputRoom{desc.triangle_room, desc.label_room, orDefault(desc.contact_room, kDefaultContactRoom)};
     }
     return out;
 }
@@ -48,14 +39,6 @@ BufferRange rangeOf(const Results& results, vxt_device_part part) {
         return results.bounds();
     case VXT_DEVICE_LABEL_COUNTS:
         return results.labelCounts();
-    case VXT_DEVICE_CLEARANCES:
-        return results.clearances();
-    case VXT_DEVICE_CLOSEST:
-        return results.closest();
-    case VXT_DEVICE_LABEL_CLEARANCES:
-        return results.labelClearances();
-    case VXT_DEVICE_MOTIONS:
-        return results.motions();
     default:
         break;
     }
@@ -64,7 +47,7 @@ BufferRange rangeOf(const Results& results, vxt_device_part part) {
 }
 
 vxt_certified_counters fromCounters(const CertifiedCounters& from) noexcept {
-    vxt_certified_counters out = vxt_certified_counters_init();
+    vxt_certified_counters out = zero<vxt_certified_counters>();
     out.clusters = from.clusters;
     out.clusters_kept = from.clustersKept;
     out.runs_kept = from.runsKept;
@@ -100,15 +83,6 @@ vxt_answer toAnswer(Results& results, std::span<const PairResult> pairs, bool ti
         answer.pairs.push_back(unpack(pair));
     }
     take(results.readOutputs(answer));
-    if (results.measured()) {
-        answer.clearances = take(results.readClearances());
-    }
-    if (results.measuredLabels()) {
-        answer.labelClearances = take(results.readLabelClearances());
-    }
-    if (results.moved()) {
-        answer.motions = take(results.readMotions());
-    }
     if (results.counted()) {
         answer.counters = take(results.counters());
     }
@@ -156,28 +130,6 @@ vxt_result vxt_answer_counters(const vxt_answer* answer, vxt_certified_counters*
     });
 }
 
-vxt_result vxt_answer_clearances(const vxt_answer* answer, vxt_clearances* clearances) {
-    return call([&] {
-        const vxt_answer& from = need(answer, "answer");
-        vxt_clearances& to = need(clearances, "clearances");
-        if (!from.clearances) {
-            refuse(ErrorCode::NotReady, "the answer has no clearances: its detector was made without them");
-        }
-        vxt_clearances out;
-        out.wallMilliseconds = from.wallMilliseconds;
-        std::ranges::transform(*from.clearances, std::back_inserter(out.pairs), toClearance);
-        std::ranges::transform(from.labelClearances, std::back_inserter(out.labels), toLabelClearance);
-        to = std::move(out);
-    });
-}
-
-vxt_result vxt_answer_motions(const vxt_answer* answer, vxt_motions* motions) {
-    return call([&] {
-        const vxt_answer& from = need(answer, "answer");
-        need(motions, "motions") = toMotions(from.motions, from.wallMilliseconds);
-    });
-}
-
 void vxt_results_destroy(vxt_results* results) {
     if (results != nullptr && results->object.own) {
         delete results;
@@ -198,9 +150,9 @@ vxt_result vxt_result_ring_create(const vxt_context* context, uint32_t frames, c
 
 vxt_result vxt_result_ring_begin(vxt_result_ring* ring, uint64_t frame, vxt_results** results) {
     return call(ring, [&] {
-        RingAndSlots& from = need(ring, "ring").object;
         vxt_results*& place = need(results, "results");
         place = nullptr;
+        RingAndSlots& from = need(ring, "ring").object;
         Results* const claimed = take(from.ring.begin(frame));
         vxt_results& slot = from.slots[frame % from.slots.size()];
         slot.object.slot = claimed;

@@ -8,28 +8,30 @@ using namespace voxtact::c;
 
 namespace {
 
+constexpr auto kPlainStride = decltype(vxt_mesh_options::vertex_stride){12};
+
 WrappedTransferFunction toWrapped(const vxt_wrapped_transfer_function* given) {
     const vxt_wrapped_transfer_function wrapped =
-        readStruct(given, vxt_wrapped_transfer_function_init(), "wrapped transfer function");
+        readStruct(given, zero<vxt_wrapped_transfer_function>(), "wrapped transfer function");
     return {.view = wrapped.view,
-            .layout = wrapped.layout,
+            .layout = layoutOf(wrapped.layout),
             .domain = toRange(wrapped.domain),
             .table = toSpan(wrapped.table, wrapped.table_size, "wrapped transfer function: table")};
 }
 
 MeshOptions toOptions(const vxt_mesh_options* given) {
-    const vxt_mesh_options options = readOptions(given, vxt_mesh_options_init(), "options");
+    const vxt_mesh_options options = readOptions(given, zero<vxt_mesh_options>(), "options");
     return {.name = options.name,
             .clusters = options.clusters != 0,
             .editable = options.editable != 0,
-            .vertexStride = options.vertex_stride};
+            .vertexStride = orDefault(options.vertex_stride, kPlainStride)};
 }
 
 WrappedMesh toWrapped(const vxt_wrapped_mesh* given) {
-    const vxt_wrapped_mesh wrapped = readStruct(given, vxt_wrapped_mesh_init(), "wrapped mesh");
+    const vxt_wrapped_mesh wrapped = readStruct(given, zero<vxt_wrapped_mesh>(), "wrapped mesh");
     return {.vertices = wrapped.vertices,
             .vertexOffset = wrapped.vertex_offset,
-            .vertexStride = wrapped.vertex_stride,
+            .vertexStride = orDefault(wrapped.vertex_stride, kPlainStride),
             .vertexCount = wrapped.vertex_count,
             .indices = wrapped.indices,
             .indexOffset = wrapped.index_offset,
@@ -117,7 +119,7 @@ void vxt_mesh_release_staging(vxt_mesh* mesh) {
     }
 }
 
-vxt_result vxt_mesh_cmd_update(vxt_mesh* mesh, VkCommandBuffer commands, const float* positions, size_t vertex_count) {
+vxt_result vxt_mesh_cmd_update(vxt_mesh* mesh, VkCommandBuffer commands, const double* positions, size_t vertex_count) {
     return call(mesh, [&] {
         take(need(mesh, "mesh")
                  .object.cmdUpdate(commands, toSpan(positions, times(vertex_count, 3, "positions"), "positions")));
@@ -154,13 +156,13 @@ void vxt_mesh_destroy(vxt_mesh* mesh) {
 vxt_result vxt_pose_buffer_wrap(const vxt_context* context, const vxt_wrapped_poses* wrapped, const char* name,
                                 vxt_pose_buffer** poses) {
     return create(context, "context", poses, [&](const Context& on) {
-        const vxt_wrapped_poses from = readOptions(wrapped, vxt_wrapped_poses_init(), "wrapped poses");
+        const vxt_wrapped_poses from = readOptions(wrapped, zero<vxt_wrapped_poses>(), "wrapped poses");
         return take(PoseBuffer::wrap(on,
                                      {.buffer = from.buffer,
                                       .offset = from.offset,
-                                      .stride = from.stride,
+                                      .stride = orDefault(from.stride, VkDeviceSize{64}),
                                       .count = from.count,
-                                      .mostScale = from.most_scale},
+                                      .mostScale = orDefault(from.most_scale, 1.0)},
                                      name));
     });
 }

@@ -6,7 +6,7 @@ namespace voxtact::c {
 void checkStructSize(std::size_t size, std::size_t alignment, const char* what) {
     if (size < sizeof(std::size_t) || size > kLargestStruct || size % alignment != 0) {
         refuse(ErrorCode::InvalidArgument, std::string(what) + ": struct_size is " + std::to_string(size) +
-                                               ", not the size of a struct; make it with its _init()");
+                                               ", not the size of a struct; set it to its sizeof");
     }
 }
 

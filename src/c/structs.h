@@ -20,6 +20,18 @@ void checkStructSize(std::size_t size, std::size_t alignment, const char* what);
 /// Refuses members that this library does not know, unless they are zero: they ask for nothing.
 void checkUnknownMembers(const std::byte* begin, const std::byte* end, const char* what);
 
+/// A struct with its size and zeros, which stand for the defaults.
+template <class T> T zero() noexcept {
+    T out{};
+    out.struct_size = sizeof out;
+    return out;
+}
+
+/// A number of the caller's, where 0 stands for the default.
+template <class Number> Number orDefault(Number given, Number standard) noexcept {
+    return given == 0 ? standard : given;
+}
+
 /// A copy of the caller's struct. Members that it does not have are those of `defaults`.
 template <class T> T readStruct(const void* given, const T& defaults, const char* what) {
     static_assert(std::is_trivially_copyable_v<T> && offsetof(T, struct_size) == 0);
@@ -30,16 +42,6 @@ template <class T> T readStruct(const void* given, const T& defaults, const char
     std::memcpy(&copy, given, std::min(size, sizeof copy));
     const auto* bytes = static_cast<const std::byte*>(given);
     checkUnknownMembers(bytes + std::min(size, sizeof copy), bytes + size, what);
-    if constexpr (requires { copy.reserved; }) {
-        if (copy.reserved != 0) {
-            refuse(ErrorCode::Unsupported, std::string(what) + ": reserved is not 0");
-        }
-    }
-    if constexpr (requires { copy.reserved_too; }) {
-        if (copy.reserved_too != 0) {
-            refuse(ErrorCode::Unsupported, std::string(what) + ": reserved_too is not 0");
-        }
-    }
     return copy;
 }
 

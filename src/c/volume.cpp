@@ -8,17 +8,17 @@ using namespace voxtact::c;
 namespace {
 
 VolumeOptions toOptions(const vxt_volume_options* given) {
-    const vxt_volume_options options = readOptions(given, vxt_volume_options_init(), "options");
+    const vxt_volume_options options = readOptions(given, zero<vxt_volume_options>(), "options");
     return {.name = options.name, .bricks = options.bricks != 0, .editable = options.editable != 0};
 }
 
 WrappedVolume toWrapped(const vxt_wrapped_volume* given) {
-    const vxt_wrapped_volume wrapped = readStruct(given, vxt_wrapped_volume_init(), "wrapped volume");
+    const vxt_wrapped_volume wrapped = readStruct(given, zero<vxt_wrapped_volume>(), "wrapped volume");
     WrappedVolume out{.view = wrapped.view,
                       .format = wrapped.format,
-                      .layout = wrapped.layout,
+                      .layout = layoutOf(wrapped.layout),
                       .grid = toGrid(wrapped.grid),
-                      .slope = wrapped.slope,
+                      .slope = orDefault(wrapped.slope, 1.0),
                       .intercept = wrapped.intercept,
                       .boundaryValues = std::nullopt,
                       .bricks = wrapped.bricks != 0};
@@ -88,7 +88,7 @@ vxt_result vxt_volume_cmd_copy(vxt_volume* volume, VkCommandBuffer commands, con
 vxt_result vxt_volume_get_info(const vxt_volume* volume, vxt_volume_info* info) {
     return call(volume, [&] {
         const Volume& from = need(volume, "volume").object;
-        vxt_volume_info out = vxt_volume_info_init();
+        vxt_volume_info out = zero<vxt_volume_info>();
         out.view = from.view();
         out.grid = fromGrid(from.grid());
         if (const std::optional<ValueRange> range = from.valueRange()) {

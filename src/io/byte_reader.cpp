@@ -271,12 +271,8 @@ Result<std::vector<std::byte>> ByteReader::take(std::uint64_t needed) {
     return bytes;
 }
 
-Result<void> ByteReader::finish() {
-    if (!inflater_) {
-        return {};
-    }
-    const Result<std::uint64_t> rest = skip(~std::uint64_t{0});
-    return rest.ok() ? Result<void>{} : Result<void>{rest.error()};
+Result<std::uint64_t> ByteReader::finish() {
+    return skip(~std::uint64_t{0});
 }
 
 } // namespace voxtact::io

@@ -51,8 +51,8 @@ class ByteReader {
     /// `needed` bytes, for the voxels: refused where fewer follow. Memory grows as they arrive, so that a header that
     /// lies costs no more than the file holds: twice its bytes, unpacked (deflate packs at most 1032 bytes into one).
     [[nodiscard]] Result<std::vector<std::byte>> take(std::uint64_t needed);
-    /// To the end of packed bytes, where their checksum is.
-    [[nodiscard]] Result<void> finish();
+    /// Goes to the end, where the checksum of packed bytes is. Returns how many bytes were left.
+    [[nodiscard]] Result<std::uint64_t> finish();
 
   private:
     struct Stored;

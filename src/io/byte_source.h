@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "voxtact/error.h"
-
 #include <cstddef>
 #include <cstring>
-#include <filesystem>
-#include <string>
 #include <string_view>
 
 namespace voxtact::io {
-
-/// The first `length` bytes, or fewer where the file is shorter; decompressed when it is gzip.
-[[nodiscard]] Result<std::string> contentHead(const std::filesystem::path& path, std::size_t length);
 
 /// The number at `offset`, which must lie inside `bytes`.
 template <class Number>

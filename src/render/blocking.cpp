@@ -2,9 +2,9 @@
 #include "core/base/guard.h"
 #include "core/base/live.h"
 #include "core/base/try.h"
-#include "gpu/barriers.h"
-#include "gpu/submit.h"
 #include "render/render_impl.h"
+#include "vulkan/barriers.h"
+#include "vulkan/submit.h"
 
 #include <algorithm>
 #include <chrono>
@@ -112,7 +112,7 @@ struct BlockingRenderer::State {
     /// A band of rows: from the first on, before the last.
     Result<void> record(VkCommandBuffer commandBuffer, const Scene& scene, std::uint32_t first, std::uint32_t last,
                         bool anew);
-    /// A submission. A band from the first row on, or `anew`, discards what was rendered before it.
+    /// A submission. A band from the first row on, or `again`, discards what was rendered before it.
     Result<void> renderBand(const Scene& scene, VkExtent2D extent, std::uint32_t first, std::uint32_t last,
                             bool anew = false);
     /// How many seconds a row in the middle takes; of no use in the picture.

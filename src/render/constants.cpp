@@ -2,7 +2,6 @@
 #include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
-#include "core/transfer/table_extremes.h"
 #include "render/matrix_rows.h"
 #include "render/render_impl.h"
 
@@ -53,7 +52,6 @@ void setFunction(PictureConstants& constants, const Scene& scene) {
     constants.bricksX = scene.bricks != nullptr ? volume.brickCount[0] : 0;
     constants.bricksY = volume.brickCount[1];
     constants.tableSize = static_cast<int>(function.table.size());
-    constants.tableLevels = static_cast<int>(TableExtremes::levelsOf(function.table.size()));
 }
 
 /// A ray through the box must come to an end.

@@ -70,8 +70,8 @@ Result<void> checkPositive(double value, const std::string& what) {
 Result<void> checkLighting(const Lighting& lighting) {
     for (const double value :
          {lighting.ambient, lighting.diffuse, lighting.specular, lighting.shininess, lighting.side}) {
-        if (!(value >= 0 && value <= kMostLight)) {
-            return refuse("the lighting has a value of " + number(value) + ", outside [0, " + number(kMostLight) + "]");
+        if (!(value >= 0 && value <= kMaxLight)) {
+            return refuse("the lighting has a value of " + number(value) + ", outside [0, " + number(kMaxLight) + "]");
         }
     }
     if (!(lighting.occlusion >= 0 && lighting.occlusion <= 1)) {
@@ -88,9 +88,9 @@ Result<void> checkLighting(const Lighting& lighting) {
 }
 
 Result<void> checkClipPlanes(std::span<const ClipPlane> planes) {
-    if (planes.size() > kMostClipPlanes) {
+    if (planes.size() > kMaxClipPlanes) {
         return refuse("the scene has " + std::to_string(planes.size()) + " clip planes, the most is " +
-                      std::to_string(kMostClipPlanes));
+                      std::to_string(kMaxClipPlanes));
     }
     for (std::size_t i = 0; i < planes.size(); ++i) {
         const double length = lengthOf(planes[i].normal);

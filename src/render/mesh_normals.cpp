@@ -4,10 +4,10 @@
 #include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "core/geometry/mesh_vertex.h"
-#include "gpu/barriers.h"
-#include "gpu/debug.h"
-#include "gpu/submit.h"
 #include "render/render_impl.h"
+#include "vulkan/barriers.h"
+#include "vulkan/debug.h"
+#include "vulkan/submit.h"
 
 #include <cmath>
 #include <cstring>

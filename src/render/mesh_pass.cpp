@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "gpu/barriers.h"
 #include "render/render_impl.h"
+#include "vulkan/barriers.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/try.h"
-#include "gpu/pipeline.h"
 #include "render/render_impl.h"
+#include "vulkan/pipeline.h"
 
 #include "voxtact_shaders/render_mesh_frag.h"
 #include "voxtact_shaders/render_mesh_fragments_frag.h"

@@ -128,8 +128,8 @@ void setPaint(shader::PictureMesh& constants, const Volume& volume, const MeshPa
     constants.switches |= paint.what == Paint::Discarded ? PICTURE_MESH_DISCARDED : 0U;
     if (by == PaintBy::Fragments) {
         const VolumeImpl& impl = volume.impl();
-        constants.item =
-            itemConstants(impl.valueSlope, impl.valueIntercept, paint.transferFunction->impl().domain, paint.threshold);
+        constants.item = itemConstants(impl.valueSlope, impl.valueIntercept,
+                                       paint.transferFunction->impl().known.domain, paint.threshold);
     }
 }
 

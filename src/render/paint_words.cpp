@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/refuse.h"
 #include "core/base/try.h"
-#include "gpu/barriers.h"
-#include "gpu/debug.h"
-#include "gpu/submit.h"
 #include "render/render_impl.h"
+#include "vulkan/barriers.h"
+#include "vulkan/debug.h"
+#include "vulkan/submit.h"
 
 #include <cstring>
 #include <string>

@@ -3,8 +3,8 @@
 #include "core/base/live.h"
 #include "core/base/refuse.h"
 #include "core/base/try.h"
-#include "gpu/submit.h"
 #include "render/render_impl.h"
+#include "vulkan/submit.h"
 
 #include <cmath>
 

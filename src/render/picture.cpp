@@ -3,11 +3,11 @@
 #include "core/base/live.h"
 #include "core/base/refuse.h"
 #include "core/base/try.h"
-#include "gpu/barriers.h"
-#include "gpu/debug.h"
-#include "gpu/mesh_layout.h"
-#include "gpu/submit.h"
+#include "device/scene/mesh_layout.h"
 #include "render/render_impl.h"
+#include "vulkan/barriers.h"
+#include "vulkan/debug.h"
+#include "vulkan/submit.h"
 
 namespace voxtact {
 

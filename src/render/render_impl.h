@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "gpu/context_impl.h"
-#include "gpu/scene_impl.h"
-#include "render.h"
+#include "device/scene/scene_impl.h"
+#include "exact/render.h"
 #include "voxtact/render.h"
+#include "vulkan/context_impl.h"
 
 namespace voxtact {
 

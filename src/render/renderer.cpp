@@ -2,9 +2,9 @@
 #include "core/base/guard.h"
 
 #include "core/base/try.h"
-#include "gpu/layouts.h"
-#include "gpu/pipeline.h"
 #include "render/render_impl.h"
+#include "vulkan/layouts.h"
+#include "vulkan/pipeline.h"
 
 #include "voxtact_shaders/preintegrate_comp.h"
 #include "voxtact_shaders/render_volume_frag.h"

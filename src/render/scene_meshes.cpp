@@ -2,6 +2,7 @@
 #include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "core/geometry/pair_transform.h"
+#include "core/geometry/recentre.h"
 #include "render/matrix_rows.h"
 #include "render/render_impl.h"
 
@@ -45,11 +46,12 @@ Result<void> checkMeshLook(const SceneMesh& mesh) {
 shader::PictureMesh setUpMesh(const Scene& scene, const SceneMesh& mesh) {
     shader::PictureMesh constants{};
     // The camera as it is, turned or not: what is painted is decided from these numbers, as a detector does.
+    const Mat4 world_from_floats = worldFromFloats(mesh.world_from_object, mesh.mesh->impl().known.origin);
     const shader::PairTransform transform =
-        pairTransform(scene.clip_from_world, mesh.world_from_object, scene.volume->impl().texture_from_world);
+        pairTransform(scene.clip_from_world, world_from_floats, scene.volume->impl().texture_from_world);
     std::ranges::copy(transform.clip_from_object, constants.clip_from_object);
     std::ranges::copy(transform.texture_from_object, constants.texture_from_object);
-    setRows(constants.world_from_object, mesh.world_from_object);
+    setRows(constants.world_from_object, world_from_floats);
     const Result<Mat4> object_from_world = inverse(linearPart(mesh.world_from_object));
     if (object_from_world.ok()) { // checkMeshLook() has seen to it
         setRows(constants.normal_from_object, transposed(*object_from_world));

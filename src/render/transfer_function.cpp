@@ -4,23 +4,37 @@
 #include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
-#include "core/transfer/table_extremes.h"
-#include "gpu/barriers.h"
-#include "gpu/debug.h"
-#include "gpu/submit.h"
 #include "render/render_impl.h"
+#include "vulkan/barriers.h"
+#include "vulkan/debug.h"
+#include "vulkan/submit.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace voxtact {
 
 namespace {
 
-constexpr std::uint32_t kMostEntries = 1024;
+constexpr std::uint32_t kMaxEntries = 1024;
+
+/// As tableDomain(): around the points of the opacity and of the colours.
+ValueRange domainOf(const RenderTransferFunctionDesc& desc) {
+    std::vector<double> values;
+    std::ranges::transform(desc.opacity.points, std::back_inserter(values), &ControlPoint::value);
+    std::ranges::transform(desc.colours, std::back_inserter(values), &ColourPoint::value);
+    if (values.empty()) {
+        return desc.opacity.domain;
+    }
+    const auto [lo, hi] = std::ranges::minmax(values);
+    const ControlPoint ends[] = {{lo, 0}, {hi, 0}};
+    return tableDomain({ends, desc.opacity.domain, desc.opacity.tableSize});
+}
 
 /// One channel of the colours, sampled as the opacity is.
-Result<std::vector<float>> sampleChannel(const RenderTransferFunctionDesc& desc, std::size_t channel) {
+Result<std::vector<float>> sampleChannel(const RenderTransferFunctionDesc& desc, const ValueRange& domain,
+                                         std::size_t channel) {
     if (desc.colours.empty()) {
         return std::vector<float>(desc.opacity.tableSize, 1.0F);
     }
@@ -32,31 +46,47 @@ Result<std::vector<float>> sampleChannel(const RenderTransferFunctionDesc& desc,
         }
         points.push_back({point.value, point.colour[channel]});
     }
-    Result<std::vector<float>> table = sampleTable({points, desc.opacity.domain, desc.opacity.tableSize});
+    Result<std::vector<float>> table = sampleTable({points, domain, desc.opacity.tableSize});
     return table.ok() ? table : refuse("the transfer function's colours: " + table.error().text);
 }
 
 Result<void> setFunction(RenderTransferFunctionImpl& function, const RenderTransferFunctionDesc& desc) {
     VOXTACT_TRY(checkPositive(desc.step, "the step"));
     VOXTACT_TRY(checkPositive(desc.opacityUnit, "the opacity unit"));
-    if (desc.opacity.tableSize > kMostEntries) {
+    if (desc.opacity.tableSize > kMaxEntries) {
         return refuse("the transfer function's table has " + std::to_string(desc.opacity.tableSize) +
-                      " entries, for pictures it may have " + std::to_string(kMostEntries));
+                      " entries, for pictures it may have " + std::to_string(kMaxEntries));
     }
     std::array<std::vector<float>, 4> channels;
-    Result<std::vector<float>> opacity = sampleTable(desc.opacity);
+    TransferFunctionDesc given = desc.opacity;
+    given.domain = domainOf(desc);
+    Result<std::vector<float>> opacity = sampleTable(given);
     VOXTACT_TRY(opacity);
     channels[3] = std::move(*opacity);
     for (std::size_t channel = 0; channel < 3; ++channel) {
-        Result<std::vector<float>> table = sampleChannel(desc, channel);
+        Result<std::vector<float>> table = sampleChannel(desc, given.domain, channel);
         VOXTACT_TRY(table);
         channels[channel] = std::move(*table);
     }
     function.integrals = extinctionIntegrals(channels, desc.opacityUnit);
     function.table = std::move(channels[3]);
-    function.domain = desc.opacity.domain;
+    function.domain = given.domain;
     function.step = desc.step;
     return {};
+}
+
+/// The greatest of the entries i to i + 2^k - 1 of a table of N at [k * N + i], for all k that it has room for: two
+/// look-ups tell that of any run (Bender and Farach-Colton, "The LCA problem revisited", 2000). Runs that leave the
+/// table end with it.
+std::vector<float> runMaxima(const std::vector<float>& table) {
+    std::vector<float> out = table;
+    for (std::size_t run = 1; 2 * run <= table.size(); run *= 2) {
+        const std::size_t below = out.size() - table.size();
+        for (std::size_t i = 0; i < table.size(); ++i) {
+            out.push_back(std::max(out[below + i], out[below + std::min(i + run, table.size() - 1)]));
+        }
+    }
+    return out;
 }
 
 Result<void> makeBuffers(RenderTransferFunctionImpl& function) {
@@ -66,7 +96,7 @@ Result<void> makeBuffers(RenderTransferFunctionImpl& function) {
                                           "transfer function integrals");
     VOXTACT_TRY(integrals);
     function.integralBuffer = std::move(*integrals);
-    Result<Buffer> extremes = makeBuffer(context, TableExtremes(function.table).values().size_bytes(), kUsage,
+    Result<Buffer> extremes = makeBuffer(context, runMaxima(function.table).size() * sizeof(float), kUsage,
                                          MemoryUse::Device, "transfer function opacities");
     VOXTACT_TRY(extremes);
     function.extremes = std::move(*extremes);
@@ -119,8 +149,8 @@ void cmdMake(const RenderTransferFunctionImpl& function, VkCommandBuffer command
             VK_ACCESS_2_TRANSFER_WRITE_BIT);
     cmdUpdateBuffer(context, commandBuffer, function.integralBuffer.get(), 0,
                     std::as_bytes(std::span(function.integrals)));
-    const TableExtremes extremes(function.table);
-    cmdUpdateBuffer(context, commandBuffer, function.extremes.get(), 0, std::as_bytes(extremes.values()));
+    cmdUpdateBuffer(context, commandBuffer, function.extremes.get(), 0,
+                    std::as_bytes(std::span<const float>(runMaxima(function.table))));
     barrier(context, commandBuffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
             VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
     constexpr ImageUse kWritten{VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,

@@ -93,7 +93,7 @@ MeshData toMesh(Surface surface, std::string name) {
     mesh.positions.reserve(surface.points.size() * 3);
     for (const Vec3& point : surface.points) {
         for (const double coordinate : point) {
-            mesh.positions.push_back(static_cast<float>(coordinate));
+            mesh.positions.push_back(static_cast<double>(static_cast<float>(coordinate)));
         }
     }
     mesh.indices = std::move(surface.corners);

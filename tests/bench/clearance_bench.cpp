@@ -9,12 +9,13 @@
 // MESH is a built-in one (scalpel). VOXTACT_BENCH_POSES are the poses that are drawn; see bench_input.h for others.
 #include "bench/bench_input.h"
 #include "bench/distance_map.h"
-#include "lab/engines/engine.h"
-#include "lab/engines/opaque_cells.h"
-#include "lab/measure/machine.h"
-#include "lab/measure/numbers.h"
-#include "lab/measure/poses.h"
-#include "lab/measure/stopwatch.h"
+#include "bench/engines/engine.h"
+#include "bench/engines/opaque_cells.h"
+#include "bench/measure/machine.h"
+#include "bench/measure/numbers.h"
+#include "bench/measure/stopwatch.h"
+#include "cli/make/poses.h"
+#include "support/host_meters.h"
 #include "support/scenes.h"
 #include "voxtact/cpu.h"
 
@@ -42,7 +43,7 @@ struct Scene {
     Mat4 cells_from_world{};
     MeshData data;
     std::vector<Mat4> poses; // that do not touch, at most kFarthest away
-    std::vector<PairClearance> truth;
+    std::vector<PairDistance> truth;
     std::optional<cpu::Mesh> mesh;
 
     [[nodiscard]] std::vector<cpu::BatchItem> items(const cpu::TransferFunction& function,
@@ -82,10 +83,10 @@ Scene loadScene(const char* mesh) {
     scene.data = take(makeBuiltinMesh(mesh));
     scene.mesh = take(cpu::Mesh::create(scene.data.view()));
     const std::vector<Mat4> drawn =
-        lab::randomPoses(scene.volume.data.grid, scene.data.view(), numberFrom("VOXTACT_BENCH_POSES", 2000), kSeed);
+        randomPoses(scene.volume.data.grid, scene.data.view(), numberFrom("VOXTACT_BENCH_POSES", 2000), kSeed);
     cpu::ClearanceMeter meter = meterOf(kFarthest);
-    for (const PairClearance& pair : take(meter.measure(batchOf(scene.items(drawn)))).pairs) {
-        if (pair.bounds.lo > 0 && pair.end == ClearanceEnd::Closed && std::isfinite(pair.bounds.hi)) {
+    for (const PairDistance& pair : take(meter.measure(batchOf(scene.items(drawn)))).pairs) {
+        if (pair.bounds.lower > 0 && pair.end == StopReason::Closed && std::isfinite(pair.bounds.upper)) {
             scene.poses.push_back(drawn[pair.pose]);
             scene.truth.push_back(pair);
         }
@@ -100,7 +101,7 @@ double distanceOf(const Vec3& a, const Vec3& b) {
 std::vector<Vec3> verticesAt(const Scene& scene, const Mat4& pose) {
     std::vector<Vec3> out;
     for (std::size_t i = 0; i < scene.data.positions.size(); i += 3) {
-        const float* at = scene.data.positions.data() + i;
+        const double* at = scene.data.positions.data() + i;
         out.push_back(transformPoint(pose, {at[0], at[1], at[2]}));
     }
     return out;
@@ -124,7 +125,7 @@ void verify(const Scene& scene) {
     }
     const std::size_t checked = std::min<std::size_t>(scene.poses.size(), 8);
     for (std::size_t i = 0; i < checked; ++i) {
-        const PairClearance& pair = scene.truth[i];
+        const PairDistance& pair = scene.truth[i];
         double least = std::numeric_limits<double>::infinity();
         for (const Vec3& vertex : verticesAt(scene, scene.poses[i])) {
             for (const Vec3& voxel : opaque) {
@@ -134,9 +135,9 @@ void verify(const Scene& scene) {
         const double between = distanceOf(pair.closest->mesh, pair.closest->volume);
         // Cells of another size than the voxels have the value of a voxel that is up to a diagonal away.
         const double slack = scene.cells.resampled ? std::sqrt(3.0) * scene.cells.side : 1e-9;
-        if (least < pair.bounds.lo - slack || std::abs(between - pair.bounds.hi) > 1e-6) {
+        if (least < pair.bounds.lower - slack || std::abs(between - pair.bounds.upper) > 1e-6) {
             std::fprintf(stderr, "pose %zu: %.9g mm to a voxel, %.9g between the closest points, bounds %.9g, %.9g\n",
-                         i, least, between, pair.bounds.lo, pair.bounds.hi);
+                         i, least, between, pair.bounds.lower, pair.bounds.upper);
             std::exit(1);
         }
     }
@@ -171,10 +172,10 @@ struct Errors {
     double most = 0;
     double least = 0;
 
-    void take(double estimate, const ClearanceBounds& bounds, double side) {
-        const double error = estimate > bounds.hi   ? estimate - bounds.hi
-                             : estimate < bounds.lo ? estimate - bounds.lo
-                                                    : 0;
+    void take(double estimate, const Bounds& bounds, double side) {
+        const double error = estimate > bounds.upper   ? estimate - bounds.upper
+                             : estimate < bounds.lower ? estimate - bounds.lower
+                                                       : 0;
         sizes.push_back(std::abs(error));
         above += error > 0 ? 1U : 0U;
         farAbove += error > side / 2 ? 1U : 0U;
@@ -226,12 +227,12 @@ void measureFclDistance(const Scene& scene) {
     std::size_t wrong = 0;
     for (std::size_t i = 0; i < poses; ++i) {
         touching += found[i] < 0 ? 1U : 0U;
-        const ClearanceBounds& bounds = scene.truth[i].bounds;
+        const Bounds& bounds = scene.truth[i].bounds;
         if (found[i] >= 0) {
             errors.take(found[i], bounds, scene.cells.side);
         }
-        const double least = std::max(0.0, bounds.lo - explained);
-        wrong += std::max(0.0, found[i]) < least || found[i] > bounds.hi + explained ? 1U : 0U;
+        const double least = std::max(0.0, bounds.lower - explained);
+        wrong += std::max(0.0, found[i]) < least || found[i] > bounds.upper + explained ? 1U : 0U;
     }
     printErrors("FCL distance(), octree", errors);
     std::printf("%-50s touching where nothing does: %zu of %zu; off by more than a voxel's diagonal: %zu\n", "",

@@ -2,7 +2,8 @@
 // Counted pairs per second of the host engine, for the two built-in instruments against a head, over poses near the
 // volume, around the onset of contact, and deep inside. Each scene is verified against the reference before it is
 // timed. VOXTACT_BENCH_VOLUME names another volume (a file) where voxtact::io is built.
-#include "cpu/raster/reference.h"
+#include "host/count/reference.h"
+#include "support/host_meters.h"
 #include "support/scenes.h"
 #include "voxtact/cpu.h"
 #include "voxtact/samples.h"

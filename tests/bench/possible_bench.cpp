@@ -7,7 +7,8 @@
 //
 // VOXTACT_BENCH_POSES are the poses a scene, VOXTACT_BENCH_THREADS the threads; see bench_input.h for others.
 #include "bench/bench_input.h"
-#include "lab/measure/poses.h"
+#include "cli/make/poses.h"
+#include "support/host_meters.h"
 #include "support/scenes.h"
 #include "voxtact/cpu.h"
 
@@ -51,7 +52,7 @@ std::vector<PairAnswer> ask(cpu::Detector& detector, const Subject& subject, con
 
 cpu::Detector detectorOf(bool stopAtFirst) {
     cpu::DetectorDesc desc;
-    desc.projection = Projection::Conservative;
+    desc.projection = Projection::Certified;
     desc.stopAtFirst = stopAtFirst;
     desc.threads = numberFrom("VOXTACT_BENCH_THREADS", 1);
     return take(cpu::Detector::create(desc));
@@ -87,7 +88,7 @@ void measureOnset(const Subject& subject, const MeshView& view, std::uint32_t co
     const auto touches = [&](const Mat4& pose) -> Result<bool> {
         return ask(detector, subject, mesh, {&pose, 1})[0].hit;
     };
-    measure(subject, view, take(lab::onsetPoses(subject.data.grid, view, count, kSeed, touches)), name + ", onset");
+    measure(subject, view, take(onsetPoses(subject.data.grid, view, count, kSeed, touches)), name + ", onset");
 }
 
 /// A rectangle in index space, in the plane `at` of an axis; corners on eighths of a voxel.

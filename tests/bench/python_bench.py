@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What `scene.detect` costs compared with the C++ call that it makes, in one run: one pose, and 100,000 poses.
+"""What `scene.touch` costs compared with the C++ call that it makes, in one run: one pose, and 100,000 poses.
 
 usage: python_bench.py [POSES] [--json]
 
-The C++ call is cpu::Detector::detect(). For one pose it is the call that Python makes, by its own clock
+The C++ call is HostEngine::ask() of a touch. For one pose it is the call that Python makes, by its own clock
 (BatchAnswer::wallMilliseconds): what is around it is what Python adds. For many, Python calls in pieces; so the engine is
 also asked for all of them in one call, in turn with Python, both by the processor time of all threads, without the copy
 of the poses that Python makes before. A line says how much more Python takes: the median, and the smallest and largest.
@@ -31,10 +31,10 @@ def one_pose(scene, mesh, pose, times):
     engine, more = [], []
     for _ in range(times):
         begin = time.perf_counter()
-        answer = scene.detect(mesh, pose, yes_no=True)
-        hit, count = answer.hit, answer.count
+        answer = scene.touch(mesh, pose)
+        touches, undecided = answer.touches, answer.undecided
         seconds = time.perf_counter() - begin
-        assert hit.shape == count.shape
+        assert touches.shape == undecided.shape
         engine.append(answer.seconds)
         more.append(seconds - answer.seconds)
     return engine, more
@@ -49,11 +49,11 @@ def processor_seconds(ask):
 def many_poses(scene, mesh, poses, rounds):
     """Processor seconds of the engine in one call, and of Python."""
     def engine_call(times):
-        scene._core.engine_seconds(mesh._core, poses, {"yes_no": True}, times)
+        scene._core.engine_seconds(mesh._core, poses, times)
 
     def python_call():
-        answer = scene.detect(mesh, poses, yes_no=True)
-        assert answer.hit.shape == answer.count.shape
+        answer = scene.touch(mesh, poses)
+        assert answer.touches.shape == answer.undecided.shape
 
     copy = min(processor_seconds(lambda: engine_call(0)) for _ in range(rounds))
     engine, python = [], []

@@ -6,8 +6,6 @@
 #include "support/take.h"
 #include "voxtact/cpu.h"
 
-#include <stdexcept>
-
 namespace voxtact::test {
 
 /// So many voxels per side of 1 mm each, the first one's centre at the origin.
@@ -16,6 +14,26 @@ inline Grid millimetreGrid(std::uint32_t side) {
     grid.size = {side, side, side};
     return grid;
 }
+
+[[nodiscard]] inline Owned<vxt_host_engine> newEngine(std::uint32_t threads = 1) {
+    return made(vxt_host_engine_destroy, vxt_host_engine_create, threads);
+}
+[[nodiscard]] inline Owned<vxt_cancel> newCancel() {
+    return made(vxt_cancel_destroy, vxt_cancel_create);
+}
+
+// One name for all questions.
+#define VOXTACT_ASK(question)                                                                                          \
+    inline vxt_result askC(vxt_host_engine* engine, const vxt_##question* asked, const vxt_pairs* pairs,               \
+                           vxt_answer* answer) {                                                                       \
+        return vxt_ask_##question(engine, asked, pairs, answer);                                                       \
+    }
+VOXTACT_ASK(touch)
+VOXTACT_ASK(count)
+VOXTACT_ASK(distance)
+VOXTACT_ASK(area)
+VOXTACT_ASK(motion)
+#undef VOXTACT_ASK
 
 /// A scene through both interfaces.
 struct BothInterfaces {
@@ -32,58 +50,42 @@ struct BothInterfaces {
         : volume(take(cpu::Volume::create(scene.volume.view()))),
           function(take(cpu::TransferFunction::create(scene.transferFunction()))),
           mesh(take(cpu::Mesh::create(scene.mesh.view()))), labels(take(makeLabels(labelImage.view()))),
-          cVolumeHandle(made<vxt_host_volume>(vxt_host_volume_destroy,
-                                              [&](auto out) {
-                                                  const vxt_volume_view view = cVolume(scene.volume);
-                                                  return vxt_host_volume_create(&view, out);
-                                              })),
-          cFunctionHandle(made<vxt_host_transfer_function>(vxt_host_transfer_function_destroy,
-                                                           [&](auto out) {
-                                                               const auto points = cPoints(scene.points);
-                                                               const auto desc =
-                                                                   cFunction(points, scene.domain, scene.tableSize);
-                                                               return vxt_host_transfer_function_create(&desc, out);
-                                                           })),
-          cMeshHandle(made<vxt_host_mesh>(vxt_host_mesh_destroy,
-                                          [&](auto out) {
-                                              const vxt_mesh_view view = cMesh(scene.mesh);
-                                              return vxt_host_mesh_create(&view, out);
-                                          })),
-          cLabels(made<vxt_labels>(vxt_labels_destroy, [&](auto out) {
-              const vxt_volume_view view = cVolume(labelImage);
-              return vxt_labels_create(&view, out);
-          })) {}
+          cVolumeHandle(made(vxt_host_volume_destroy, vxt_host_volume_create, at(cVolume(scene.volume)))),
+          cFunctionHandle(made(vxt_host_transfer_function_destroy, vxt_host_transfer_function_create,
+                               at(cFunction(cPoints(scene.points), scene.domain, scene.tableSize)))),
+          cMeshHandle(made(vxt_host_mesh_destroy, vxt_host_mesh_create, at(cMesh(scene.mesh)))),
+          cLabels(made(vxt_labels_destroy, vxt_labels_create, at(cVolume(labelImage)))) {}
 
-    [[nodiscard]] BatchAnswer byCpp(cpu::Detector& detector, const RandomScene& scene) const {
-        const cpu::BatchItem item{&mesh, &volume, &function, scene.poses, &labels};
-        return take(detector.detect({std::span(&item, 1), scene.view, scene.threshold}));
+    [[nodiscard]] cpu::BatchItem itemOf(const RandomScene& scene) const {
+        return {&mesh, &volume, &function, scene.poses, &labels};
+    }
+    template <class Question>
+    [[nodiscard]] auto byCpp(cpu::HostEngine& engine, const Question& question, const RandomScene& scene) const {
+        const cpu::BatchItem item = itemOf(scene);
+        return take(
+            engine.ask(question, cpu::Batch{.items = {&item, 1}, .view = scene.view, .threshold = scene.threshold}));
     }
 
-    /// What of the C interface has the scene; valid as long as this, the scene and the view are.
-    struct CBatch {
+    /// The scene for C; valid as long as this, the scene and the view are. Stays where it is.
+    struct CPairs {
         vxt_view view{};
-        vxt_host_item item = vxt_host_item_init();
-        vxt_host_batch batch = vxt_host_batch_init();
+        vxt_host_item item{};
+        vxt_pairs pairs = sized<vxt_pairs>();
     };
-    void fill(CBatch& out, const RandomScene& scene) const {
+    void fill(CPairs& out, const RandomScene& scene) const {
         out.view = cView(scene.view);
-        out.item.mesh = cMeshHandle.get();
-        out.item.volume = cVolumeHandle.get();
-        out.item.transfer_function = cFunctionHandle.get();
-        out.item.world_from_object = scene.poses.data()->data();
-        out.item.pose_count = scene.poses.size();
-        out.item.labels = cLabels.get();
-        out.batch.items = &out.item;
-        out.batch.item_count = 1;
-        out.batch.view = &out.view;
-        out.batch.threshold = scene.threshold;
+        out.item = {cMeshHandle.get(),          cVolumeHandle.get(), cFunctionHandle.get(),
+                    scene.poses.data()->data(), scene.poses.size(),  cLabels.get()};
+        out.pairs = {sizeof out.pairs, &out.item, 1, &out.view, scene.threshold, nullptr};
     }
-    [[nodiscard]] BatchAnswer byC(vxt_host_detector& detector, const RandomScene& scene) const {
-        CBatch c;
+    template <class Question>
+    [[nodiscard]] Owned<vxt_answer> byC(vxt_host_engine& engine, const Question& question,
+                                        const RandomScene& scene) const {
+        CPairs c;
         fill(c, scene);
-        const Owned<vxt_answer> answer = newAnswer();
-        need(vxt_host_detector_detect(&detector, &c.batch, answer.get()));
-        return answerOf(*answer);
+        Owned<vxt_answer> answer = newAnswer();
+        need(askC(&engine, &question, &c.pairs, answer.get()));
+        return answer;
     }
 };
 

@@ -11,7 +11,7 @@
 namespace voxtact::test {
 namespace {
 
-/// Lines that begin with their number, each longer than those before it, so that whoever reads them needs more memory.
+/// Lines that begin with their number, each longer than those before it, so that reading them needs more memory.
 class FilesMemory : public testing::Test {
   protected:
     static constexpr std::size_t kLines = 5;

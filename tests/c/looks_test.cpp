@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Pictures through the C interface as far as they need no device: looks, views, creases, and null for every argument.
+#include "null_calls.h"
 #include "support/c_calls.h"
 #include "support/scenes.h"
 #include "voxtact/looks.h"
@@ -26,8 +27,7 @@ TEST(CLooks, AreTheCppInterfaces) {
     const vxt_range values{-500, 1500};
     for (std::size_t i = 0; i < lookPresets().size(); ++i) {
         ASSERT_STREQ(vxt_look_name(i), lookPresets()[i].name);
-        const auto look =
-            made<vxt_look>(vxt_look_destroy, [&](auto out) { return vxt_look_create(vxt_look_name(i), &values, out); });
+        const auto look = made(vxt_look_destroy, vxt_look_create, vxt_look_name(i), &values);
         const Result<Look> cpp = lookNamed(vxt_look_name(i), {values.lo, values.hi});
         ASSERT_TRUE(cpp.ok());
         std::size_t count = 0;
@@ -166,8 +166,7 @@ TEST(CLooks, CreasesAreTheCppInterfaces) {
     roof.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
     roof.indices = {0, 1, 2, 0, 3, 1};
     const vxt_mesh_view view = cMesh(roof);
-    const auto split =
-        made<vxt_mesh_data>(vxt_mesh_data_destroy, [&](auto out) { return vxt_split_at_creases(&view, 40, out); });
+    const auto split = made(vxt_mesh_data_destroy, vxt_split_at_creases, &view, 40);
     const MeshData expected = *splitAtCreases(roof.view(), 40);
     const vxt_mesh_view found = dataView(split);
     EXPECT_GT(found.vertex_count, view.vertex_count);
@@ -180,56 +179,24 @@ TEST(CLooks, CreasesAreTheCppInterfaces) {
 }
 
 TEST(CLooks, NothingIsRefusedAndEnded) {
-    vxt_renderer* renderer = nullptr;
-    vxt_render_function* function = nullptr;
-    vxt_mesh_normals* normals = nullptr;
-    vxt_render_bricks* bricks = nullptr;
-    vxt_painted_triangles* painted = nullptr;
-    vxt_painted_vertices* vertices = nullptr;
-    vxt_render_targets* targets = nullptr;
-    vxt_blocking_renderer* blocking = nullptr;
-    EXPECT_EQ(text(vxt_renderer_create(nullptr, VK_FORMAT_R8G8B8A8_UNORM, &renderer)), "context is null");
-    EXPECT_EQ(text(vxt_render_function_create(nullptr, nullptr, &function)), "renderer is null");
-    EXPECT_EQ(text(vxt_render_function_upload(nullptr, nullptr, nullptr, &function)), "renderer is null");
-    EXPECT_EQ(text(vxt_render_function_cmd_upload(nullptr, VK_NULL_HANDLE)), "function is null");
-    EXPECT_EQ(text(vxt_render_function_cmd_update(nullptr, VK_NULL_HANDLE, nullptr)), "function is null");
+    expectAllNullRefused(vxt_renderer_create, vxt_render_function_create, vxt_render_function_upload,
+                         vxt_render_function_cmd_upload, vxt_render_function_cmd_update, vxt_mesh_normals_create,
+                         vxt_mesh_normals_upload, vxt_mesh_normals_cmd_upload, vxt_mesh_normals_cmd_update,
+                         vxt_render_bricks_create, vxt_painted_triangles_create, vxt_painted_triangles_upload,
+                         vxt_painted_triangles_wrap, vxt_painted_triangles_cmd_upload, vxt_painted_vertices_create,
+                         vxt_painted_vertices_upload, vxt_painted_vertices_wrap, vxt_painted_vertices_cmd_upload,
+                         vxt_render_targets_create, vxt_renderer_cmd_render, vxt_blocking_renderer_create,
+                         vxt_blocking_renderer_render);
     EXPECT_EQ(vxt_render_function_visible(nullptr), 0U);
-    EXPECT_EQ(text(vxt_mesh_normals_create(nullptr, nullptr, &normals)), "renderer is null");
-    EXPECT_EQ(text(vxt_mesh_normals_upload(nullptr, nullptr, nullptr, &normals)), "renderer is null");
-    EXPECT_EQ(text(vxt_mesh_normals_cmd_upload(nullptr, VK_NULL_HANDLE)), "normals is null");
-    EXPECT_EQ(text(vxt_mesh_normals_cmd_update(nullptr, VK_NULL_HANDLE, nullptr)), "normals is null");
-    EXPECT_EQ(text(vxt_render_bricks_create(nullptr, nullptr, &bricks)), "renderer is null");
-    EXPECT_EQ(text(vxt_painted_triangles_create(nullptr, 1, nullptr, 0, &painted)), "renderer is null");
-    EXPECT_EQ(text(vxt_painted_triangles_upload(nullptr, nullptr, 1, nullptr, 0, &painted)), "renderer is null");
-    EXPECT_EQ(text(vxt_painted_triangles_wrap(nullptr, nullptr, &painted)), "renderer is null");
-    EXPECT_EQ(text(vxt_painted_triangles_cmd_upload(nullptr, VK_NULL_HANDLE)), "painted is null");
-    EXPECT_EQ(text(vxt_painted_vertices_create(nullptr, nullptr, 0, &vertices)), "renderer is null");
-    EXPECT_EQ(text(vxt_painted_vertices_upload(nullptr, nullptr, nullptr, 0, &vertices)), "renderer is null");
-    EXPECT_EQ(text(vxt_painted_vertices_wrap(nullptr, nullptr, &vertices)), "renderer is null");
-    EXPECT_EQ(text(vxt_painted_vertices_cmd_upload(nullptr, VK_NULL_HANDLE)), "painted is null");
-    EXPECT_EQ(text(vxt_render_targets_create(nullptr, 1, 1, &targets)), "renderer is null");
-    EXPECT_EQ(text(vxt_renderer_cmd_render(nullptr, VK_NULL_HANDLE, nullptr, nullptr)), "renderer is null");
-    EXPECT_EQ(text(vxt_blocking_renderer_create(nullptr, nullptr, &blocking)), "context is null");
-    EXPECT_EQ(text(vxt_blocking_renderer_render(nullptr, nullptr, 1, 1, nullptr, nullptr, nullptr)),
-              "renderer is null");
     EXPECT_EQ(vxt_blocking_renderer_renderer(nullptr), nullptr);
     EXPECT_EQ(text(vxt_picture_create(nullptr)), "the place for the new object is null");
     EXPECT_EQ(text(vxt_picture_get(nullptr, nullptr)), "picture is null");
-    const auto picture = made<vxt_picture>(vxt_picture_destroy, [](auto out) { return vxt_picture_create(out); });
+    const auto picture = made(vxt_picture_destroy, vxt_picture_create);
     EXPECT_EQ(text(vxt_picture_get(picture.get(), nullptr)), "view is null");
-    vxt_look_destroy(nullptr);
-    vxt_renderer_destroy(nullptr);
-    vxt_render_function_destroy(nullptr);
-    vxt_mesh_normals_release_staging(nullptr);
-    vxt_mesh_normals_destroy(nullptr);
-    vxt_render_bricks_destroy(nullptr);
-    vxt_painted_triangles_release_staging(nullptr);
-    vxt_painted_triangles_destroy(nullptr);
-    vxt_painted_vertices_release_staging(nullptr);
-    vxt_painted_vertices_destroy(nullptr);
-    vxt_render_targets_destroy(nullptr);
-    vxt_picture_destroy(nullptr);
-    vxt_blocking_renderer_destroy(nullptr);
+    endNothing(vxt_look_destroy, vxt_renderer_destroy, vxt_render_function_destroy, vxt_mesh_normals_release_staging,
+               vxt_mesh_normals_destroy, vxt_render_bricks_destroy, vxt_painted_triangles_release_staging,
+               vxt_painted_triangles_destroy, vxt_painted_vertices_release_staging, vxt_painted_vertices_destroy,
+               vxt_render_targets_destroy, vxt_picture_destroy, vxt_blocking_renderer_destroy);
 }
 
 } // namespace

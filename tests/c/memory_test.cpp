@@ -33,7 +33,7 @@ class Memory : public testing::Test {
     RandomScene scene_ = makeScene();
     VolumeData labelImage_ = makeBytes(millimetreGrid(16), [](auto x, auto...) { return x < 4 ? 1.0 : 3.0; });
     BothInterfaces both_{scene_, labelImage_};
-    BothInterfaces::CBatch c_;
+    BothInterfaces::CPairs c_;
 };
 
 TEST_F(Memory, OfWhatAScenesPartsAreMadeOf) {
@@ -63,14 +63,11 @@ TEST_F(Memory, OfWhatAScenesPartsAreMadeOf) {
 
 TEST_F(Memory, OfHandlesAndSmallThings) {
     expectTightCreation<vxt_answer>("answer", vxt_answer_destroy, [](auto out) { return vxt_answer_create(out); });
-    expectTightCreation<vxt_clearances>("clearances", vxt_clearances_destroy,
-                                        [](auto out) { return vxt_clearances_create(out); });
     expectTightCreation<vxt_cancel>("cancel", vxt_cancel_destroy, [](auto out) { return vxt_cancel_create(out); });
-    expectTightCreation<vxt_host_detector>("detector", vxt_host_detector_destroy, [](auto out) {
-        vxt_host_detector_desc desc = vxt_host_detector_desc_init();
-        desc.threads = 1;
-        return vxt_host_detector_create(&desc, out);
-    });
+    expectTightCreation<vxt_host_engine>("engine", vxt_host_engine_destroy,
+                                         [](auto out) { return vxt_host_engine_create(1, out); });
+    vxt_fact fact = sized<vxt_fact>();
+    need(vxt_fact_get(0, &fact)); // its texts are made once
     expectTightCreation<vxt_control_points>("opacity", vxt_control_points_destroy,
                                             [](auto out) { return vxt_parse_opacity("40:0,80:1", out); });
     const vxt_box boxes[] = {{{0, 0, 0}, {2, 2, 2}}, {{1, 1, 1}, {3, 3, 3}}};
@@ -87,7 +84,7 @@ TEST_F(Memory, OfHandlesAndSmallThings) {
             return vxt_labels_along(both_.cLabels.get(), from, to, found, 2, &count);
         },
         [&] { EXPECT_EQ(count, 2U); });
-    const vxt_context_desc nothing = vxt_context_desc_init();
+    const vxt_context_desc nothing = sized<vxt_context_desc>();
     vxt_report* report = nullptr;
     expectTight(
         "report",
@@ -99,223 +96,184 @@ TEST_F(Memory, OfHandlesAndSmallThings) {
     vxt_report_destroy(report);
 }
 
-TEST_F(Memory, OfDetections) {
-    for (const vxt_projection projection :
-         {VXT_PROJECTION_CONSERVATIVE, VXT_PROJECTION_VIEW, VXT_PROJECTION_DOMINANT_AXIS}) {
-        for (const std::uint32_t threads : {1U, 3U}) {
-            vxt_host_detector_desc desc = vxt_host_detector_desc_init();
-            desc.threads = threads;
-            desc.projection = projection;
-            desc.outputs = VXT_OUTPUT_CONTACTS | VXT_OUTPUT_TRIANGLES | VXT_OUTPUT_BOUNDS | VXT_OUTPUT_LABELS;
-            const auto detector = made<vxt_host_detector>(
-                vxt_host_detector_destroy, [&](auto out) { return vxt_host_detector_create(&desc, out); });
-            const BatchAnswer expected = both_.byC(*detector, scene_);
-            ASSERT_TRUE(expected.pairs[0].hit);
+/// The bytes of every column but the times.
+std::vector<std::byte> contentOf(const vxt_answer& answer) {
+    std::vector<std::byte> all;
+    vxt_column column = sized<vxt_column>();
+    for (std::size_t i = 0; i < vxt_answer_columns(&answer); ++i) {
+        need(vxt_answer_column(&answer, i, &column));
+        if (std::string_view(column.unit) == "ms") {
+            continue;
+        }
+        const std::size_t bytes =
+            column.elements * (column.type == VXT_TYPE_DOUBLE || column.type == VXT_TYPE_UINT64 ? 8U : 4U);
+        for (std::size_t row = 0; row < column.rows; ++row) {
+            const auto* from = static_cast<const std::byte*>(column.data) + row * column.stride;
+            all.insert(all.end(), from, from + bytes);
+        }
+    }
+    return all;
+}
+
+class QuestionMemory : public Memory {
+  protected:
+    /// Of an engine that knows the volume, and of one that does not.
+    void expectTightAnswer(const std::string& what, std::uint32_t threads, const auto& ask,
+                           std::vector<bool> known = {true, false}) {
+        for (const bool isKnown : known) {
+            Owned<vxt_host_engine> engine = newEngine(threads);
             const Owned<vxt_answer> answer = newAnswer();
-            expectTight(
-                vxt_projection_name(projection),
-                [&] { return vxt_host_detector_detect(detector.get(), &c_.batch, answer.get()); },
-                [&] { EXPECT_EQ(wholeDifferenceOf(answerOf(*answer), expected), ""); });
-        }
-    }
-}
-
-TEST_F(Memory, OfClearances) {
-    for (const std::uint32_t threads : {1U, 3U}) {
-        vxt_host_clearance_desc desc = vxt_host_clearance_desc_init();
-        desc.threads = threads;
-        desc.tolerance = 0.1;
-        vxt_host_clearance_meter* meter = nullptr;
-        const Owned<vxt_clearances> out =
-            made<vxt_clearances>(vxt_clearances_destroy, [](auto o) { return vxt_clearances_create(o); });
-        const std::int32_t asked[] = {1, 3};
-        double expected[2] = {};
-        const auto measured = [&](bool toLabels) {
-            vxt_clearance_view view = vxt_clearance_view_init();
-            need(vxt_clearances_get(out.get(), &view));
-            return toLabels ? view.labels[1].hi : view.pairs[1].hi;
-        };
-        // Of an engine that knows the volume, and of one that does not.
-        for (const bool known : {true, false}) {
-            for (const bool toLabels : {false, true}) {
-                const auto ask = [&] {
-                    return toLabels ? vxt_host_clearance_meter_measure_labels(meter, &c_.batch, asked, 2, out.get())
-                                    : vxt_host_clearance_meter_measure(meter, &c_.batch, out.get());
-                };
-                const auto fresh = [&] {
-                    vxt_host_clearance_meter_destroy(meter);
-                    return vxt_host_clearance_meter_create(&desc, &meter);
-                };
-                need(fresh());
-                need(ask());
-                expected[toLabels ? 1 : 0] = measured(toLabels);
-                EXPECT_GT(expected[0], 0);
-                expectTight(
-                    toLabels ? "clearance to labels" : "clearance",
-                    [&] {
-                        const vxt_result ready = known ? VXT_OK : fresh();
-                        return ready == VXT_OK ? ask() : ready;
-                    },
-                    [&] { EXPECT_EQ(measured(toLabels), expected[toLabels ? 1 : 0]); });
-            }
-        }
-        const Owned<vxt_answer> answer = newAnswer();
-        expectTight(
-            "margin", [&] { return vxt_host_clearance_meter_within(meter, &c_.batch, 1, answer.get()); },
-            [&] { EXPECT_TRUE(answerOf(*answer).pairs[0].hit); });
-        vxt_host_clearance_meter_destroy(meter);
-    }
-}
-
-TEST_F(Memory, OfAreas) {
-    expectTightCreation<vxt_areas>("areas", vxt_areas_destroy, [](auto out) { return vxt_areas_create(out); });
-    for (const std::uint32_t threads : {1U, 3U}) {
-        vxt_host_area_desc desc = vxt_host_area_desc_init();
-        desc.threads = threads;
-        desc.tolerance = 0.05;
-        vxt_host_area_meter* meter = nullptr;
-        const Owned<vxt_areas> out = made<vxt_areas>(vxt_areas_destroy, [](auto o) { return vxt_areas_create(o); });
-        const std::int32_t asked[] = {1, 3};
-        for (const char* const what : {"area", "area by label", "area by triangle"}) {
-            if (threads > 1 && std::string_view(what) == "area") {
-                continue; // what it needs, that by triangle needs, too
-            }
-            const bool byLabel = std::string_view(what) == "area by label";
-            const bool byTriangle = std::string_view(what) == "area by triangle";
-            const auto ask = [&] {
-                vxt_host_area_meter_destroy(meter);
-                const vxt_result ready = vxt_host_area_meter_create(&desc, &meter);
-                return ready != VXT_OK ? ready
-                       : byLabel       ? vxt_host_area_meter_measure_labels(meter, &c_.batch, asked, 2, out.get())
-                       : byTriangle    ? vxt_host_area_meter_measure_triangles(meter, &c_.batch, out.get())
-                                       : vxt_host_area_meter_measure(meter, &c_.batch, out.get());
+            const auto call = [&] {
+                if (!isKnown) {
+                    vxt_host_engine* fresh = nullptr;
+                    const vxt_result result = vxt_host_engine_create(threads, &fresh);
+                    if (result != VXT_OK) {
+                        return result;
+                    }
+                    engine.reset(fresh);
+                }
+                return ask(engine.get(), answer.get());
             };
-            const auto measured = [&] {
-                vxt_area_view view = vxt_area_view_init();
-                need(vxt_areas_get(out.get(), &view));
-                return byLabel ? view.labels[1].hi : byTriangle ? view.triangles[0].hi : view.pairs[0].hi;
-            };
-            need(ask());
-            const double expected = measured();
-            EXPECT_TRUE(byLabel || expected > 0);
-            expectTight(what, ask, [&] { EXPECT_EQ(measured(), expected); });
+            need(call());
+            const std::vector<std::byte> expected = contentOf(*answer);
+            EXPECT_FALSE(expected.empty());
+            expectTight((what + (isKnown ? "" : " of a new engine")).c_str(), call,
+                        [&] { EXPECT_EQ(contentOf(*answer), expected); });
         }
-        vxt_host_area_meter_destroy(meter);
+    }
+    template <class Question>
+    void expectTightAnswer(const std::string& what, const Question& question,
+                           const std::vector<bool>& known = {true, false}) {
+        for (const std::uint32_t threads : {1U, 3U}) {
+            expectTightAnswer(
+                what, threads,
+                [&](vxt_host_engine* engine, vxt_answer* answer) { return askC(engine, &question, &c_.pairs, answer); },
+                known);
+        }
+    }
+    static constexpr std::int32_t kLabels[] = {1, 3};
+};
+
+TEST_F(QuestionMemory, OfCounts) {
+    vxt_count question = sized<vxt_count>();
+    question.outputs = VXT_OUTPUT_CONTACTS | VXT_OUTPUT_TRIANGLES | VXT_OUTPUT_BOUNDS | VXT_OUTPUT_LABELS;
+    for (const vxt_projection projection :
+         {VXT_PROJECTION_CERTIFIED, VXT_PROJECTION_VIEW, VXT_PROJECTION_DOMINANT_AXIS}) {
+        question.projection = projection;
+        expectTightAnswer(vxt_projection_name(projection), question);
     }
 }
 
-TEST_F(Memory, AMeterThatNeverHadItsMemoryGetsItInTheNextCall) {
-    vxt_host_clearance_desc desc = vxt_host_clearance_desc_init();
-    desc.threads = 1;
-    const Owned<vxt_clearances> out =
-        made<vxt_clearances>(vxt_clearances_destroy, [](auto o) { return vxt_clearances_create(o); });
+TEST_F(QuestionMemory, OfTouches) {
+    vxt_touch question = sized<vxt_touch>();
+    question.margin = 1;
+    question.witness = 1;
+    expectTightAnswer("touch", question);
+    question.witness = 0;
+    question.uncertainty_distance = 0.2;
+    question.uncertainty_angle = 1;
+    expectTightAnswer("touch at uncertain poses", question, {true}); // a new engine allocates thousands of times
+}
+
+TEST_F(QuestionMemory, OfDistances) {
+    vxt_distance question = sized<vxt_distance>();
+    question.tolerance = 0.1;
+    expectTightAnswer("distance", question);
+    question.labels = kLabels;
+    question.label_count = 2;
+    expectTightAnswer("distance to labels", question);
+}
+
+TEST_F(QuestionMemory, OfAreas) {
+    vxt_area question = sized<vxt_area>();
+    question.tolerance = 0.05;
+    question.triangles = 1;
+    expectTightAnswer("area by triangle", question);
+    question.triangles = 0;
+    question.labels = kLabels;
+    question.label_count = 2;
+    expectTightAnswer("area in labels", question);
+}
+
+TEST_F(QuestionMemory, OfMotions) {
+    vxt_motion question = sized<vxt_motion>();
+    question.resolution = 0.5;
+    expectTightAnswer("motion", question);
+}
+
+TEST_F(QuestionMemory, OfPlans) {
+    vxt_obstacle obstacle{};
+    obstacle.volume = both_.cVolumeHandle.get();
+    obstacle.transfer_function = both_.cFunctionHandle.get();
+    obstacle.opacity_threshold = 0.5;
+    vxt_plan question = sized<vxt_plan>();
+    question.obstacles = &obstacle;
+    question.obstacle_count = 1;
+    question.entries = 12;
+    question.entry_radius = 4;
+    question.target[0] = 12;
+    question.target[1] = question.target[2] = 8;
+    expectTightAnswer("plan", 2, [&](vxt_host_engine* engine, vxt_answer* answer) {
+        return vxt_ask_plan(engine, &question, answer);
+    });
+}
+
+TEST_F(QuestionMemory, AnEngineThatNeverHadItsMemoryGetsItInTheNextCall) {
+    const Owned<vxt_answer> answer = newAnswer();
     std::uint64_t failures = 1;
     for (std::int64_t number = 0; failures > 0; ++number) {
-        const Owned<vxt_host_clearance_meter> meter = made<vxt_host_clearance_meter>(
-            vxt_host_clearance_meter_destroy, [&](auto o) { return vxt_host_clearance_meter_create(&desc, o); });
+        const Owned<vxt_host_engine> engine = newEngine();
         FailingMemory memory(number, false);
-        const vxt_result first = vxt_host_clearance_meter_measure(meter.get(), &c_.batch, out.get());
+        const vxt_result first = vxt_ask_distance(engine.get(), nullptr, &c_.pairs, answer.get());
         memory.end();
         failures = memory.failures();
         EXPECT_TRUE(first == VXT_OK || failures > 0) << first;
-        need(vxt_host_clearance_meter_measure(meter.get(), &c_.batch, out.get()));
-        vxt_clearance_view view = vxt_clearance_view_init();
-        need(vxt_clearances_get(out.get(), &view));
-        EXPECT_GT(view.pairs[1].hi, 0) << "allocation " << number;
+        need(vxt_ask_distance(engine.get(), nullptr, &c_.pairs, answer.get()));
+        EXPECT_GT(readColumn<double>(*answer, "pairs", "upper").at(1), 0) << "allocation " << number;
     }
 }
 
-TEST_F(Memory, OfMotionsAndTrackers) {
-    vxt_host_motion_desc desc = vxt_host_motion_desc_init();
-    desc.threads = 2;
-    desc.resolution = 0.5;
-    const auto checker = made<vxt_host_motion_checker>(
-        vxt_host_motion_checker_destroy, [&](auto out) { return vxt_host_motion_checker_create(&desc, out); });
-    const auto motions = made<vxt_motions>(vxt_motions_destroy, [](auto out) { return vxt_motions_create(out); });
-    expectTight(
-        "motion", [&] { return vxt_host_motion_checker_check(checker.get(), &c_.batch, motions.get()); },
-        [&] {
-            vxt_motion_view view = vxt_motion_view_init();
-            need(vxt_motions_get(motions.get(), &view));
-            EXPECT_EQ(view.segments[0].touches, 1U);
-        });
-    const Owned<vxt_answer> answer = newAnswer();
-    expectTight(
-        "pose tolerance",
-        [&] { return vxt_host_motion_checker_around(checker.get(), &c_.batch, 0.2, 1, answer.get()); },
-        [&] { EXPECT_TRUE(answerOf(*answer).pairs[0].hit); });
-    vxt_host_clearance_tracker* tracker = nullptr;
+TEST_F(Memory, OfTrackers) {
+    vxt_tracker* tracker = nullptr;
     c_.item.world_from_object = scene_.poses[1].data();
     c_.item.pose_count = 1;
-    vxt_tracked_clearance tracked = vxt_tracked_clearance_init();
+    vxt_tracked tracked = sized<vxt_tracked>();
     expectTight(
         "tracker",
         [&] {
-            vxt_host_clearance_tracker_destroy(tracker);
-            const vxt_result ready = vxt_host_clearance_tracker_create(nullptr, &tracker);
-            return ready == VXT_OK ? vxt_host_clearance_tracker_track(tracker, &c_.item, scene_.threshold, &tracked)
-                                   : ready;
+            vxt_tracker_destroy(tracker);
+            const vxt_result ready = vxt_tracker_create(0, 0, 0, &tracker);
+            return ready == VXT_OK ? vxt_tracker_track(tracker, &c_.item, scene_.threshold, &tracked) : ready;
         },
-        [&] { EXPECT_EQ(tracked.hit, 0U); });
-    vxt_host_clearance_tracker_destroy(tracker);
+        [&] { EXPECT_EQ(tracked.touch, 0U); });
+    vxt_tracker_destroy(tracker);
 }
 
-TEST_F(Memory, ATrackerWhoseLookFailedKnowsNothingOfTheSceneThatItWasAbout) {
+TEST_F(Memory, ATrackerWhoseSearchFailedKnowsNothingOfTheSceneThatItWasAbout) {
     const VolumeData empty = makeBytes(millimetreGrid(16), [](auto...) { return 0.0; });
-    const auto nothing = made<vxt_host_volume>(vxt_host_volume_destroy, [&](auto out) {
-        const vxt_volume_view view = cVolume(empty);
-        return vxt_host_volume_create(&view, out);
-    });
+    const auto nothing = made(vxt_host_volume_destroy, vxt_host_volume_create, at(cVolume(empty)));
     c_.item.pose_count = 1;
     std::size_t failed = 0;
     for (std::int64_t number = 0;; ++number) {
-        const auto tracker = made<vxt_host_clearance_tracker>(vxt_host_clearance_tracker_destroy, [](auto out) {
-            return vxt_host_clearance_tracker_create(nullptr, out);
-        });
-        vxt_tracked_clearance found = vxt_tracked_clearance_init();
+        const auto tracker = made(vxt_tracker_destroy, vxt_tracker_create, 0, 0, 0);
+        vxt_tracked found = sized<vxt_tracked>();
         const auto track = [&](const vxt_host_volume* volume) {
             c_.item.volume = volume;
-            return vxt_host_clearance_tracker_track(tracker.get(), &c_.item, scene_.threshold, &found);
+            return vxt_tracker_track(tracker.get(), &c_.item, scene_.threshold, &found);
         };
         need(track(nothing.get()));
-        ASSERT_EQ(found.hit, 0U);
+        ASSERT_EQ(found.touch, 0U);
         FailingMemory memory(number, false);
         const vxt_result result = track(both_.cVolumeHandle.get());
         memory.end();
         need(track(both_.cVolumeHandle.get()));
-        ASSERT_EQ(found.hit, 1U) << "after allocation " << number << " failed";
+        ASSERT_EQ(found.touch, 1U) << "after allocation " << number << " failed";
         failed += result == VXT_OK ? 0 : 1;
         if (memory.failures() == 0) {
             break;
         }
     }
     EXPECT_GT(failed, 0U);
-}
-
-TEST_F(Memory, OfPlans) {
-    vxt_plan_obstacle obstacle = vxt_plan_obstacle_init();
-    obstacle.volume = both_.cVolumeHandle.get();
-    obstacle.transfer_function = both_.cFunctionHandle.get();
-    obstacle.threshold = 0.5;
-    vxt_plan_task task = vxt_plan_task_init();
-    task.obstacles = &obstacle;
-    task.obstacle_count = 1;
-    task.entries = 12;
-    task.entry_radius = 4;
-    task.target[0] = 12;
-    task.target[1] = task.target[2] = 8;
-    vxt_host_planner_desc desc = vxt_host_planner_desc_init();
-    desc.threads = 2;
-    const auto planner =
-        made<vxt_host_planner>(vxt_host_planner_destroy, [&](auto out) { return vxt_host_planner_create(&desc, out); });
-    const auto plan = made<vxt_plan>(vxt_plan_destroy, [](auto out) { return vxt_plan_create(out); });
-    expectTight(
-        "plan", [&] { return vxt_host_planner_plan(planner.get(), &task, plan.get()); },
-        [&] {
-            vxt_plan_view view = vxt_plan_view_init();
-            need(vxt_plan_get(plan.get(), &view));
-            EXPECT_EQ(view.path_count, 12U);
-        });
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Null for every argument of every function, ends of nothing, numbers that are none, and the texts of refusals. None of
 // it needs a device.
+#include "null_calls.h"
 #include "support/c_calls.h"
 #include "support/scenes.h"
 #include "voxtact/error.h"
@@ -17,12 +18,6 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A refusal with a text of one line that names what is null.
-#define EXPECT_NULL_REFUSED(call)                                                                                      \
-    EXPECT_EQ(call, VXT_ERROR_INVALID_ARGUMENT) << vxt_last_error(nullptr);                                            \
-    EXPECT_THAT(vxt_last_error(nullptr), HasSubstr("null"));                                                           \
-    EXPECT_EQ(std::string(vxt_last_error(nullptr)).find('\n'), std::string::npos)
-
 /// A pointer that a failure must overwrite.
 template <class T> T* stale() {
     static char memory[64];
@@ -30,42 +25,17 @@ template <class T> T* stale() {
 }
 
 TEST(CMisuse, EndingNothingIsNothing) {
-    vxt_answer_destroy(nullptr);
-    vxt_areas_destroy(nullptr);
-    vxt_blocking_detector_destroy(nullptr);
-    vxt_box_pairs_destroy(nullptr);
-    vxt_clearances_destroy(nullptr);
-    vxt_context_destroy(nullptr);
-    vxt_control_points_destroy(nullptr);
-    vxt_detector_destroy(nullptr);
-    vxt_features_destroy(nullptr);
-    vxt_host_area_meter_destroy(nullptr);
-    vxt_host_clearance_meter_destroy(nullptr);
-    vxt_host_clearance_tracker_destroy(nullptr);
-    vxt_host_detector_destroy(nullptr);
-    vxt_host_mesh_destroy(nullptr);
-    vxt_host_motion_checker_destroy(nullptr);
-    vxt_host_transfer_function_destroy(nullptr);
-    vxt_host_volume_destroy(nullptr);
-    vxt_label_map_destroy(nullptr);
-    vxt_label_map_release_staging(nullptr);
-    vxt_label_names_destroy(nullptr);
-    vxt_points_destroy(nullptr);
-    vxt_labels_destroy(nullptr);
-    vxt_mesh_data_destroy(nullptr);
-    vxt_mesh_destroy(nullptr);
-    vxt_pose_buffer_destroy(nullptr);
-    vxt_mesh_release_staging(nullptr);
-    vxt_motions_destroy(nullptr);
-    vxt_poses_destroy(nullptr);
-    vxt_report_destroy(nullptr);
-    vxt_result_ring_destroy(nullptr);
-    vxt_results_destroy(nullptr);
-    vxt_transfer_function_destroy(nullptr);
-    vxt_transfer_function_release_staging(nullptr);
-    vxt_volume_data_destroy(nullptr);
-    vxt_volume_destroy(nullptr);
-    vxt_volume_release_staging(nullptr);
+    endNothing(vxt_answer_destroy, vxt_blocking_detector_destroy, vxt_box_pairs_destroy, vxt_cancel_destroy,
+               vxt_colour_points_destroy, vxt_context_destroy, vxt_control_points_destroy, vxt_detector_destroy,
+               vxt_device_destroy, vxt_features_destroy, vxt_host_engine_destroy, vxt_host_mesh_destroy,
+               vxt_host_transfer_function_destroy, vxt_host_volume_destroy, vxt_label_map_destroy,
+               vxt_label_map_release_staging, vxt_label_names_destroy, vxt_labels_destroy, vxt_mesh_data_destroy,
+               vxt_mesh_destroy, vxt_mesh_release_staging, vxt_points_destroy, vxt_pose_buffer_destroy,
+               vxt_pose_reader_destroy, vxt_poses_destroy, vxt_report_destroy, vxt_result_ring_destroy,
+               vxt_results_destroy, vxt_tracker_destroy, vxt_transfer_function_destroy,
+               vxt_transfer_function_release_staging, vxt_volume_data_destroy, vxt_volume_destroy,
+               vxt_volume_release_staging);
+    vxt_cancel_set(nullptr, 1);
 }
 
 TEST(CMisuse, WhatIsAskedOfNothingIsNothing) {
@@ -74,6 +44,9 @@ TEST(CMisuse, WhatIsAskedOfNothingIsNothing) {
     EXPECT_EQ(count, 0U);
     count = 7;
     EXPECT_EQ(vxt_labels_values(nullptr, &count), nullptr);
+    EXPECT_EQ(count, 0U);
+    count = 7;
+    EXPECT_EQ(vxt_colour_points_get(nullptr, &count), nullptr);
     EXPECT_EQ(count, 0U);
     EXPECT_EQ(vxt_label_map_values(nullptr, nullptr), nullptr);
     EXPECT_EQ(vxt_poses_get(nullptr, nullptr), nullptr);
@@ -84,7 +57,9 @@ TEST(CMisuse, WhatIsAskedOfNothingIsNothing) {
     EXPECT_STREQ(vxt_mesh_data_name(nullptr), "");
     EXPECT_EQ(vxt_volume_data_note(nullptr, 0), nullptr);
     EXPECT_EQ(vxt_mesh_data_note(nullptr, 0), nullptr);
-    EXPECT_EQ(vxt_host_detector_threads(nullptr), 0U);
+    EXPECT_EQ(vxt_host_engine_threads(nullptr), 0U);
+    EXPECT_EQ(vxt_answer_columns(nullptr), 0U);
+    EXPECT_EQ(vxt_device_context(nullptr), nullptr);
     EXPECT_EQ(vxt_mesh_triangles(nullptr), 0U);
     EXPECT_EQ(vxt_pose_buffer_count(nullptr), 0U);
     EXPECT_EQ(vxt_features_chain(nullptr), nullptr);
@@ -94,142 +69,78 @@ TEST(CMisuse, WhatIsAskedOfNothingIsNothing) {
     EXPECT_EQ(vxt_context_device_lost(nullptr), 0U);
 }
 
-TEST(CMisuse, NullIsRefusedByTheHost) {
+TEST(CMisuse, NullIsRefused) {
+    expectAllNullRefused(
+        vxt_method_from_name, vxt_projection_from_name, vxt_check_volume, vxt_check_mesh, vxt_world_from_index,
+        vxt_world_from_texture, vxt_framing_view, vxt_inverse, vxt_transform_box, vxt_labels_create, vxt_labels_at,
+        vxt_builtin_volume, vxt_builtin_mesh, vxt_answer_find, vxt_answer_column, vxt_fact_get, vxt_volume_data_view,
+        vxt_mesh_data_view, vxt_host_volume_create, vxt_host_volume_set_box, vxt_host_volume_set_ball,
+        vxt_host_volume_write, vxt_host_transfer_function_create, vxt_host_mesh_create, vxt_host_mesh_facts,
+        vxt_host_volume_read, vxt_multiply, vxt_transform_point, vxt_side_view, vxt_texture_from_world, vxt_check_grid,
+        vxt_check_affine, vxt_sample_table, vxt_check_opacity, vxt_ball_voxels, vxt_labels_grid, vxt_host_volume_grid,
+        vxt_unpack, vxt_labels_along, vxt_pose_between, vxt_host_mesh_update, vxt_ask_touch, vxt_ask_count,
+        vxt_ask_distance, vxt_ask_area, vxt_ask_motion, vxt_ask_plan, vxt_tracker_track);
+    expectAllNullRefused(vxt_read_volume, vxt_write_volume, vxt_read_mesh, vxt_write_mesh, vxt_read_camera,
+                         vxt_read_poses, vxt_read_transfer_function, vxt_parse_opacity, vxt_read_label_names,
+                         vxt_read_points, vxt_read_volume_bytes, vxt_read_mesh_bytes, vxt_pose_reader_open,
+                         vxt_pose_reader_read, vxt_read_colours, vxt_write_png);
+    expectAllNullRefused(
+        vxt_context_create, vxt_check, vxt_context_methods, vxt_device_count, vxt_device_open, vxt_device_get_facts,
+        vxt_device_queue, vxt_device_begin, vxt_device_submit, vxt_report_get, vxt_self_test, vxt_requirement_get,
+        vxt_volume_create, vxt_volume_wrap, vxt_volume_upload, vxt_volume_cmd_upload, vxt_volume_cmd_update_bricks,
+        vxt_volume_cmd_set_box, vxt_volume_cmd_set_ball, vxt_volume_cmd_write, vxt_volume_cmd_copy, vxt_volume_get_info,
+        vxt_transfer_function_create, vxt_transfer_function_wrap, vxt_transfer_function_upload,
+        vxt_transfer_function_cmd_upload, vxt_transfer_function_cmd_update, vxt_transfer_function_domain,
+        vxt_mesh_create, vxt_mesh_wrap, vxt_mesh_upload, vxt_mesh_cmd_upload, vxt_mesh_cmd_update, vxt_mesh_cmd_copy,
+        vxt_mesh_cmd_refit, vxt_mesh_get_facts, vxt_pose_buffer_wrap, vxt_label_map_create, vxt_label_map_upload,
+        vxt_label_map_cmd_upload, vxt_detector_create, vxt_detector_cmd_detect, vxt_detector_boundary_for,
+        vxt_blocking_detector_create, vxt_blocking_detector_detect, vxt_results_create, vxt_results_on_device,
+        vxt_results_cmd_read_back, vxt_results_read, vxt_result_ring_create, vxt_result_ring_begin,
+        vxt_result_ring_read, vxt_answer_counters);
+    // These make an object of nothing else.
+    for (const vxt_result result :
+         {vxt_answer_create(nullptr), vxt_cancel_create(nullptr), vxt_features_create(nullptr, nullptr),
+          vxt_host_engine_create(0, nullptr), vxt_tracker_create(0, 0, 0, nullptr),
+          vxt_overlapping_pairs(nullptr, 0, nullptr, 0, nullptr)}) {
+        EXPECT_EQ(result, VXT_ERROR_INVALID_ARGUMENT);
+    }
+}
+
+TEST(CMisuse, NullIsRefusedBehindOthers) {
     const double matrix[16] = {};
-    double out[16];
     const vxt_box box{};
-    const vxt_grid grid = vxt_grid_init();
     vxt_box_pairs* pairs = nullptr;
-    EXPECT_NULL_REFUSED(vxt_method_from_name(nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_method_from_name("query", nullptr));
-    EXPECT_NULL_REFUSED(vxt_projection_from_name(nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_projection_from_name("view", nullptr));
-    EXPECT_NULL_REFUSED(vxt_check_volume(nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_check_mesh(nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_world_from_index(nullptr, out));
-    EXPECT_NULL_REFUSED(vxt_world_from_texture(nullptr, out));
-    EXPECT_NULL_REFUSED(vxt_framing_view(nullptr, 1, 1, nullptr));
-    EXPECT_NULL_REFUSED(vxt_inverse(nullptr, out));
-    EXPECT_NULL_REFUSED(vxt_transform_box(nullptr, &box, nullptr));
-    EXPECT_NULL_REFUSED(vxt_transform_box(matrix, nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_transform_box(matrix, &box, nullptr));
-    EXPECT_NULL_REFUSED(vxt_overlapping_pairs(nullptr, 1, nullptr, 0, &pairs));
-    EXPECT_NULL_REFUSED(vxt_overlapping_pairs(&box, 1, nullptr, 1, &pairs));
-    EXPECT_NULL_REFUSED(vxt_overlapping_pairs(nullptr, 0, nullptr, 0, nullptr));
-    EXPECT_NULL_REFUSED(vxt_labels_create(nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_labels_at(nullptr, matrix, nullptr));
-    EXPECT_NULL_REFUSED(vxt_builtin_volume(nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_builtin_mesh("scalpel", nullptr));
-    EXPECT_NULL_REFUSED(vxt_answer_create(nullptr));
-    EXPECT_NULL_REFUSED(vxt_answer_get(nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_answer_get(newAnswer().get(), nullptr));
-    vxt_volume_view volume = vxt_volume_view_init();
-    EXPECT_NULL_REFUSED(vxt_volume_data_view(nullptr, &volume));
-    vxt_mesh_view mesh = vxt_mesh_view_init();
-    EXPECT_NULL_REFUSED(vxt_mesh_data_view(nullptr, &mesh));
-    EXPECT_NULL_REFUSED(vxt_host_volume_create(nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_host_volume_set_box(nullptr, nullptr, 0));
-    EXPECT_NULL_REFUSED(vxt_host_volume_set_ball(nullptr, nullptr, 0, 0));
-    EXPECT_NULL_REFUSED(vxt_host_volume_write(nullptr, nullptr, nullptr, 0));
-    EXPECT_NULL_REFUSED(vxt_host_transfer_function_create(nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_host_mesh_create(nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_host_mesh_facts(nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_host_detector_create(nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_host_detector_detect(nullptr, nullptr, nullptr));
-    vxt_grid sized = grid;
-    sized.size[0] = sized.size[1] = sized.size[2] = 1;
-    EXPECT_NULL_REFUSED(vxt_world_from_index(&sized, nullptr));
-    EXPECT_NULL_REFUSED(vxt_framing_view(&sized, 1, 1, nullptr));
-}
-
-TEST(CMisuse, NullIsRefusedByFiles) {
-    vxt_volume_data* volume = stale<vxt_volume_data>();
-    EXPECT_NULL_REFUSED(vxt_read_volume(nullptr, nullptr, &volume));
-    EXPECT_EQ(volume, nullptr);
-    EXPECT_NULL_REFUSED(vxt_read_volume("x.nii", nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_write_volume(nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_write_volume("x.nii", nullptr));
-    vxt_mesh_data* mesh = stale<vxt_mesh_data>();
-    EXPECT_NULL_REFUSED(vxt_read_mesh(nullptr, nullptr, &mesh));
-    EXPECT_EQ(mesh, nullptr);
-    EXPECT_NULL_REFUSED(vxt_write_mesh(nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_write_mesh("x.stl", nullptr));
-    EXPECT_NULL_REFUSED(vxt_read_camera(nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_read_poses(nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_read_transfer_function(nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_parse_opacity(nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_read_label_names(nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_read_points(nullptr, nullptr));
-}
-
-TEST(CMisuse, NullIsRefusedByTheDevice) {
-    vxt_context* context = stale<vxt_context>();
-    EXPECT_NULL_REFUSED(vxt_context_create(nullptr, &context));
-    EXPECT_EQ(context, nullptr);
-    EXPECT_NULL_REFUSED(vxt_check(nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_report_get(nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_self_test(nullptr, nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_measure_methods(nullptr, nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_requirement_get(0, nullptr));
-    EXPECT_NULL_REFUSED(vxt_features_create(nullptr, nullptr));
-    vxt_volume* volume = stale<vxt_volume>();
-    EXPECT_NULL_REFUSED(vxt_volume_create(nullptr, nullptr, nullptr, &volume));
-    EXPECT_EQ(volume, nullptr);
-    EXPECT_NULL_REFUSED(vxt_volume_wrap(nullptr, nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_volume_upload(nullptr, nullptr, nullptr, nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_volume_cmd_upload(nullptr, VK_NULL_HANDLE));
-    EXPECT_NULL_REFUSED(vxt_volume_cmd_update_bricks(nullptr, VK_NULL_HANDLE, nullptr));
-    EXPECT_NULL_REFUSED(vxt_volume_cmd_set_box(nullptr, VK_NULL_HANDLE, nullptr, 0));
-    EXPECT_NULL_REFUSED(vxt_volume_cmd_set_ball(nullptr, VK_NULL_HANDLE, nullptr, 0, 0));
-    EXPECT_NULL_REFUSED(vxt_volume_cmd_write(nullptr, VK_NULL_HANDLE, nullptr, nullptr, 0));
-    EXPECT_NULL_REFUSED(vxt_volume_cmd_copy(nullptr, VK_NULL_HANDLE, nullptr, VK_NULL_HANDLE, 0));
-    EXPECT_NULL_REFUSED(vxt_volume_get_info(nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_transfer_function_create(nullptr, nullptr, nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_transfer_function_wrap(nullptr, nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_transfer_function_upload(nullptr, nullptr, nullptr, nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_transfer_function_cmd_upload(nullptr, VK_NULL_HANDLE));
-    EXPECT_NULL_REFUSED(vxt_transfer_function_cmd_update(nullptr, VK_NULL_HANDLE, nullptr));
-    EXPECT_NULL_REFUSED(vxt_transfer_function_domain(nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_mesh_create(nullptr, nullptr, nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_mesh_wrap(nullptr, nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_mesh_upload(nullptr, nullptr, nullptr, nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_mesh_cmd_upload(nullptr, VK_NULL_HANDLE));
-    EXPECT_NULL_REFUSED(vxt_mesh_cmd_update(nullptr, VK_NULL_HANDLE, nullptr, 0));
-    EXPECT_NULL_REFUSED(vxt_mesh_cmd_copy(nullptr, VK_NULL_HANDLE, VK_NULL_HANDLE, 0));
-    EXPECT_NULL_REFUSED(vxt_mesh_cmd_refit(nullptr, VK_NULL_HANDLE));
-    EXPECT_NULL_REFUSED(vxt_mesh_get_facts(nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_pose_buffer_wrap(nullptr, nullptr, nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_label_map_create(nullptr, nullptr, nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_label_map_upload(nullptr, nullptr, nullptr, nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_label_map_cmd_upload(nullptr, VK_NULL_HANDLE));
-    EXPECT_NULL_REFUSED(vxt_detector_create(nullptr, nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_detector_cmd_detect(nullptr, VK_NULL_HANDLE, nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_detector_boundary_for(nullptr, nullptr, 0, nullptr));
-    EXPECT_NULL_REFUSED(vxt_blocking_detector_create(nullptr, nullptr, nullptr, 0, nullptr));
-    EXPECT_NULL_REFUSED(vxt_blocking_detector_detect(nullptr, nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_results_create(nullptr, nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_results_on_device(nullptr, VXT_DEVICE_PAIRS, nullptr));
-    EXPECT_NULL_REFUSED(vxt_results_cmd_read_back(nullptr, VK_NULL_HANDLE));
-    EXPECT_NULL_REFUSED(vxt_results_read(nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_result_ring_create(nullptr, 1, nullptr, nullptr));
-    EXPECT_NULL_REFUSED(vxt_result_ring_begin(nullptr, 0, nullptr));
-    EXPECT_NULL_REFUSED(vxt_result_ring_read(nullptr, 0, nullptr));
+    vxt_mesh_data* mesh = nullptr;
+    vxt_grid grid{};
+    grid.size[0] = grid.size[1] = grid.size[2] = 1;
+    const std::vector<vxt_control_point> points{{0, 0}, {1, 1}};
+    const vxt_transfer_function_desc desc = cFunction(points, {0, 1}, 2);
+    expectNullRefused(vxt_method_from_name("query", nullptr));
+    expectNullRefused(vxt_projection_from_name("view", nullptr));
+    expectNullRefused(vxt_transform_box(matrix, nullptr, nullptr));
+    expectNullRefused(vxt_transform_box(matrix, &box, nullptr));
+    expectNullRefused(vxt_overlapping_pairs(nullptr, 1, nullptr, 0, &pairs));
+    expectNullRefused(vxt_overlapping_pairs(&box, 1, nullptr, 1, &pairs));
+    expectNullRefused(vxt_labels_at(nullptr, matrix, nullptr));
+    expectNullRefused(vxt_builtin_mesh("scalpel", nullptr));
+    expectNullRefused(vxt_world_from_index(&grid, nullptr));
+    expectNullRefused(vxt_texture_from_world(&grid, nullptr));
+    expectNullRefused(vxt_framing_view(&grid, 1, 1, nullptr));
+    expectNullRefused(vxt_multiply(matrix, matrix, nullptr));
+    expectNullRefused(vxt_transform_point(matrix, nullptr, nullptr));
+    expectNullRefused(vxt_check_opacity(&desc, nullptr, 0.5, nullptr));
+    expectNullRefused(vxt_sample_table(&desc, nullptr, 2));
+    expectNullRefused(vxt_ball_voxels(&grid, nullptr, 1, nullptr));
+    expectNullRefused(vxt_ball_voxels(&grid, matrix, 1, nullptr));
+    expectNullRefused(vxt_read_volume("x.nii", nullptr, nullptr));
+    expectNullRefused(vxt_write_volume("x.nii", nullptr));
+    expectNullRefused(vxt_write_mesh("x.stl", nullptr));
+    expectNullRefused(vxt_read_mesh_bytes("a.stl", nullptr, 1, nullptr, &mesh));
+    expectNullRefused(vxt_write_png(nullptr, 1, 1, matrix, 4));
 }
 
 TEST(CMisuse, NumbersThatAreNoneAreRefusedByName) {
-    const auto refusal = [](auto change) {
-        vxt_host_detector_desc desc = vxt_host_detector_desc_init();
-        change(desc);
-        vxt_host_detector* detector = stale<vxt_host_detector>();
-        EXPECT_NE(vxt_host_detector_create(&desc, &detector), VXT_OK);
-        EXPECT_EQ(detector, nullptr);
-        return std::string(vxt_last_error(nullptr));
-    };
-    EXPECT_THAT(refusal([](auto& desc) { desc.projection = static_cast<vxt_projection>(4); }), HasSubstr("projection"));
-    EXPECT_THAT(refusal([](auto& desc) { desc.boundary = static_cast<vxt_boundary>(77); }), HasSubstr("boundary"));
-    EXPECT_THAT(refusal([](auto& desc) { desc.outputs = 16; }), HasSubstr("outputs"));
-    EXPECT_THAT(refusal([](auto& desc) { desc.samples_per_voxel = 17; }), HasSubstr("samples"));
-    vxt_volume_view view = vxt_volume_view_init();
+    vxt_volume_view view = sized<vxt_volume_view>();
     view.type = static_cast<vxt_scalar_type>(9);
     view.grid.size[0] = view.grid.size[1] = view.grid.size[2] = 1;
     vxt_range range{};
@@ -240,16 +151,12 @@ TEST(CMisuse, NumbersThatAreNoneAreRefusedByName) {
     EXPECT_STREQ(vxt_filter_name(static_cast<vxt_filter>(99)), "unknown");
     EXPECT_STREQ(vxt_boundary_name(static_cast<vxt_boundary>(99)), "unknown");
     EXPECT_STREQ(vxt_exactness_name(static_cast<vxt_exactness>(99)), "unknown");
-    EXPECT_STREQ(vxt_area_end_name(static_cast<vxt_area_end>(99)), "unknown");
-    EXPECT_STREQ(vxt_clearance_end_name(static_cast<vxt_clearance_end>(99)), "unknown");
-    EXPECT_STREQ(vxt_interpolation_name(static_cast<vxt_interpolation>(99)), "unknown");
-    EXPECT_STREQ(vxt_motion_end_name(static_cast<vxt_motion_end>(99)), "unknown");
 }
 
 TEST(CMisuse, LengthsBeyondWhatMemoryHasAreRefused) {
-    const float position = 0;
+    const double position = 0;
     const std::uint32_t index = 0;
-    vxt_mesh_view mesh = vxt_mesh_view_init();
+    vxt_mesh_view mesh = sized<vxt_mesh_view>();
     mesh.positions = &position;
     mesh.indices = &index;
     mesh.vertex_count = SIZE_MAX / 2;
@@ -265,7 +172,7 @@ TEST(CMisuse, LengthsBeyondWhatMemoryHasAreRefused) {
     EXPECT_EQ(vxt_overlapping_pairs(&box, SIZE_MAX, nullptr, 0, &pairs), VXT_ERROR_INVALID_ARGUMENT);
     EXPECT_THAT(vxt_last_error(nullptr), HasSubstr("left: 18446744073709551615 are too many"));
     const char* extension = "VK_none";
-    vxt_context_desc desc = vxt_context_desc_init();
+    vxt_context_desc desc = sized<vxt_context_desc>();
     desc.enabled_device_extensions = &extension;
     desc.enabled_device_extension_count = SIZE_MAX;
     vxt_context* context = nullptr;
@@ -274,12 +181,12 @@ TEST(CMisuse, LengthsBeyondWhatMemoryHasAreRefused) {
 }
 
 TEST(CMisuse, AContextOfNothingNamesEverythingThatIsMissing) {
-    const vxt_context_desc desc = vxt_context_desc_init();
+    const vxt_context_desc desc = sized<vxt_context_desc>();
     vxt_context* context = nullptr;
     EXPECT_NE(vxt_context_create(&desc, &context), VXT_OK);
     EXPECT_THAT(vxt_last_error(nullptr), HasSubstr("getInstanceProcAddr"));
-    const auto report = made<vxt_report>(vxt_report_destroy, [&](auto out) { return vxt_check(&desc, out); });
-    vxt_report_view view = vxt_report_view_init();
+    const auto report = made(vxt_report_destroy, vxt_check, &desc);
+    vxt_report_view view = sized<vxt_report_view>();
     need(vxt_report_get(report.get(), &view));
     EXPECT_EQ(view.usable, 0U);
     EXPECT_GE(view.missing_count, 5U);
@@ -316,8 +223,7 @@ TEST(CMisuse, RequirementsAreData) {
 }
 
 TEST(CMisuse, FeaturesAreAChainThatTheCallerMayLengthen) {
-    const auto features =
-        made<vxt_features>(vxt_features_destroy, [](auto out) { return vxt_features_create(nullptr, out); });
+    const auto features = made(vxt_features_destroy, vxt_features_create, nullptr);
     VkPhysicalDeviceFeatures2* chain = vxt_features_chain(features.get());
     ASSERT_NE(chain, nullptr);
     auto* vulkan12 = static_cast<VkPhysicalDeviceVulkan12Features*>(chain->pNext);

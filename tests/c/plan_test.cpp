@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Plans through the C interface: the C++ interface's answers, every member of them.
+// Plans through the C interface: the C++ interface's answers, every column of every table.
 #include "both_interfaces.h"
+#include "columns.h"
 #include "support/scenes.h"
 
 #include <gmock/gmock.h>
@@ -11,39 +12,9 @@
 namespace voxtact::test {
 namespace {
 
-using testing::ElementsAreArray;
 using testing::HasSubstr;
 
 constexpr std::uint32_t kSide = 24;
-
-Owned<vxt_plan> newPlan() {
-    return made<vxt_plan>(vxt_plan_destroy, [](auto out) { return vxt_plan_create(out); });
-}
-
-vxt_plan_view viewOf(const vxt_plan& plan) {
-    vxt_plan_view view = vxt_plan_view_init();
-    need(vxt_plan_get(&plan, &view));
-    return view;
-}
-
-void expectSame(const vxt_planned_path& c, const PlannedPath& cpp) {
-    EXPECT_EQ(c.entry, cpp.entry);
-    EXPECT_THAT(c.position, ElementsAreArray(cpp.position));
-    EXPECT_EQ(c.length, cpp.length);
-    EXPECT_EQ(c.has_angle != 0, cpp.angle.has_value());
-    EXPECT_EQ(c.angle, cpp.angle.value_or(0));
-    EXPECT_STREQ(vxt_safety_name(c.safety), toString(cpp.safety));
-    EXPECT_EQ(c.lo, cpp.clearance.lo);
-    EXPECT_EQ(c.hi, cpp.clearance.hi);
-    EXPECT_STREQ(vxt_clearance_end_name(c.end), toString(cpp.end));
-    EXPECT_EQ(c.has_nearest != 0, cpp.nearest.has_value());
-    const NearestObstacle nearest = cpp.nearest.value_or(NearestObstacle());
-    EXPECT_EQ(c.obstacle, nearest.obstacle);
-    EXPECT_EQ(c.label, nearest.label);
-    EXPECT_THAT(c.nearest, ElementsAreArray(nearest.position));
-    EXPECT_THAT(c.on_path, ElementsAreArray(nearest.onPath));
-    EXPECT_EQ(c.reserved, 0U);
-}
 
 /// How often each was seen.
 struct PlanTally {
@@ -52,33 +23,50 @@ struct PlanTally {
     std::size_t safeTriangles = 0;
     std::size_t clearTriangles = 0;
     std::size_t leftOut = 0;
+
+    void add(const PlanAnswer& answer) {
+        for (const PlannedPath& path : answer.paths) {
+            safe += path.safety == Safety::Safe ? 1 : 0;
+            unsafe += path.safety == Safety::Unsafe ? 1 : 0;
+        }
+        for (const EntryTriangle& triangle : answer.triangles) {
+            safeTriangles += triangle.safe ? 1 : 0;
+            clearTriangles += triangle.clearance > 0 ? 1 : 0;
+        }
+        leftOut += answer.noSurface + answer.onBorder + answer.tooLong + answer.tooOblique;
+    }
 };
 
-void expectSame(const vxt_plan_view& c, const PlanAnswer& cpp, PlanTally& tally) {
-    ASSERT_EQ(c.path_count, cpp.paths.size());
-    for (std::size_t i = 0; i < cpp.paths.size(); ++i) {
-        expectSame(c.paths[i], cpp.paths[i]);
-        tally.safe += cpp.paths[i].safety == Safety::Safe ? 1 : 0;
-        tally.unsafe += cpp.paths[i].safety == Safety::Unsafe ? 1 : 0;
-    }
-    ASSERT_EQ(c.triangle_count, cpp.triangles.size());
-    for (std::size_t i = 0; i < cpp.triangles.size(); ++i) {
-        EXPECT_THAT(c.triangles[i].paths, ElementsAreArray(cpp.triangles[i].paths));
-        EXPECT_EQ(c.triangles[i].safe != 0, cpp.triangles[i].safe);
-        tally.safeTriangles += c.triangles[i].safe;
-        const double clearance = c.triangle_clearances == nullptr ? 0 : c.triangle_clearances[i];
-        EXPECT_EQ(clearance, cpp.triangles[i].clearance);
-        tally.clearTriangles += clearance > 0 ? 1 : 0;
-    }
-    EXPECT_EQ(c.area, cpp.area);
-    EXPECT_EQ(c.safe_area, cpp.safeArea);
-    EXPECT_EQ(c.directions, cpp.directions);
-    EXPECT_EQ(c.no_surface, cpp.noSurface);
-    EXPECT_EQ(c.on_border, cpp.onBorder);
-    EXPECT_EQ(c.too_long, cpp.tooLong);
-    EXPECT_EQ(c.too_oblique, cpp.tooOblique);
-    EXPECT_GE(c.wall_milliseconds, 0);
-    tally.leftOut += cpp.noSurface + cpp.onBorder + cpp.tooLong + cpp.tooOblique;
+void expectSame(const vxt_answer& c, const PlanAnswer& cpp) {
+    Columns columns(c);
+    const auto& paths = cpp.paths;
+    const auto nearest = [](auto member) { return ofOptional(&PlannedPath::nearest, member); };
+    columns.expect("paths", "entry", paths, &PlannedPath::entry);
+    columns.expect("paths", "safe", paths, &PlannedPath::safety);
+    columns.expect("paths", "lower", paths, [](const PlannedPath& path) { return path.clearance.lower; });
+    columns.expect("paths", "upper", paths, [](const PlannedPath& path) { return path.clearance.upper; });
+    columns.expect("paths", "end", paths, &PlannedPath::end);
+    columns.expect("paths", "length", paths, &PlannedPath::length);
+    columns.expect("paths", "angle", paths, [](const PlannedPath& path) {
+        return path.angle.value_or(std::numeric_limits<double>::quiet_NaN());
+    });
+    columns.expect("paths", "position", paths, &PlannedPath::position);
+    columns.expect("paths", "near", paths, [](const PlannedPath& path) { return path.nearest.has_value(); });
+    columns.expect("paths", "obstacle", paths, nearest(&NearestObstacle::obstacle));
+    columns.expect("paths", "label", paths, nearest(&NearestObstacle::label));
+    columns.expect("paths", "nearest", paths, nearest(&NearestObstacle::position));
+    columns.expect("paths", "on_path", paths, nearest(&NearestObstacle::onPath));
+    columns.expect("triangles", "paths", cpp.triangles, &EntryTriangle::paths);
+    columns.expect("triangles", "safe", cpp.triangles, &EntryTriangle::safe);
+    columns.expect("triangles", "distance", cpp.triangles, &EntryTriangle::clearance);
+    columns.expectTotal("directions", cpp, &PlanAnswer::directions);
+    columns.expectTotal("no_surface", cpp, &PlanAnswer::noSurface);
+    columns.expectTotal("on_border", cpp, &PlanAnswer::onBorder);
+    columns.expectTotal("too_long", cpp, &PlanAnswer::tooLong);
+    columns.expectTotal("too_oblique", cpp, &PlanAnswer::tooOblique);
+    columns.expectTotal("area", cpp, &PlanAnswer::area);
+    columns.expectTotal("safe_area", cpp, &PlanAnswer::safeArea);
+    columns.expectTime();
 }
 
 /// A ball of 10 mm around the middle of 24 mm, with a denser ball of 3 mm and a label of 4 mm in it.
@@ -107,25 +95,19 @@ VolumeData ballLabels() {
 class Plans : public testing::Test {
   protected:
     Plans() {
-        const vxt_control_point points[] = {{199, 0}, {201, 1}};
-        vxt_transfer_function_desc desc = vxt_transfer_function_desc_init();
-        desc.points = points;
-        desc.point_count = 2;
-        cDense_ = made<vxt_host_transfer_function>(vxt_host_transfer_function_destroy, [&](auto out) {
-            return vxt_host_transfer_function_create(&desc, out);
-        });
-        for (vxt_plan_obstacle& obstacle : cObstacles_) {
-            obstacle = vxt_plan_obstacle_init();
-            obstacle.volume = both_.cVolumeHandle.get();
-        }
+        const std::vector<vxt_control_point> points{{199, 0}, {201, 1}};
+        const vxt_transfer_function_desc desc = cFunction(points, {0, 255}, 0);
+        cDense_ = made(vxt_host_transfer_function_destroy, vxt_host_transfer_function_create, &desc);
+        cObstacles_[0].volume = cObstacles_[1].volume = both_.cVolumeHandle.get();
         cObstacles_[0].labels = both_.cLabels.get();
         cObstacles_[0].avoid = &kAvoided;
         cObstacles_[0].avoid_count = 1;
         cObstacles_[1].transfer_function = cDense_.get();
-        cObstacles_[1].threshold = 0.5;
+        cObstacles_[1].opacity_threshold = 0.5;
         cpp_.obstacles = obstacles_;
         c_.obstacles = cObstacles_;
         c_.obstacle_count = 2;
+        cpp_.maximum = c_.max = 4;
         aim({12, 12, 11});
         overBall();
     }
@@ -147,15 +129,15 @@ class Plans : public testing::Test {
         c_.entry_volume = nullptr;
         c_.entry_transfer_function = nullptr;
     }
-    vxt_result ask(vxt_plan& plan) const { return vxt_host_planner_plan(planner_.get(), &c_, &plan); }
+    [[nodiscard]] vxt_result ask() const { return vxt_ask_plan(engine_.get(), &c_, answer_.get()); }
     void expectTheSame(PlanTally& tally) {
-        const Owned<vxt_plan> plan = newPlan();
-        need(ask(*plan));
-        expectSame(viewOf(*plan), take(cppPlanner_.plan(cpp_)), tally);
+        need(ask());
+        const PlanAnswer expected = take(cppEngine_.ask(cpp_));
+        expectSame(*answer_, expected);
+        tally.add(expected);
     }
-    std::string refused() const {
-        const Owned<vxt_plan> plan = newPlan();
-        EXPECT_EQ(ask(*plan), VXT_ERROR_INVALID_ARGUMENT);
+    [[nodiscard]] std::string refused() const {
+        EXPECT_EQ(ask(), VXT_ERROR_INVALID_ARGUMENT);
         return vxt_last_error(nullptr);
     }
 
@@ -167,21 +149,16 @@ class Plans : public testing::Test {
     Owned<vxt_host_transfer_function> cDense_{nullptr, vxt_host_transfer_function_destroy};
     std::vector<cpu::PlanObstacle> obstacles_{{&both_.volume, nullptr, 0.1, &both_.labels, {kAvoided}},
                                               {&both_.volume, &dense_, 0.5, nullptr, {}}};
-    vxt_plan_obstacle cObstacles_[2];
-    cpu::PlanTask cpp_;
-    vxt_plan_task c_ = vxt_plan_task_init();
-    cpu::Planner cppPlanner_ = take(cpu::Planner::create({.threads = 1, .maximum = 4}));
-    Owned<vxt_host_planner> planner_ = made<vxt_host_planner>(vxt_host_planner_destroy, [](auto out) {
-        vxt_host_planner_desc desc = vxt_host_planner_desc_init();
-        desc.threads = 1;
-        desc.maximum = 4;
-        return vxt_host_planner_create(&desc, out);
-    });
+    vxt_obstacle cObstacles_[2]{};
+    cpu::Plan cpp_;
+    vxt_plan c_ = sized<vxt_plan>();
+    cpu::HostEngine cppEngine_ = take(cpu::HostEngine::create(1));
+    Owned<vxt_host_engine> engine_ = newEngine();
+    Owned<vxt_answer> answer_ = newAnswer();
 };
 
 TEST_F(Plans, AnswerAsTheCppInterfaceDoes) {
     PlanTally tally;
-    EXPECT_EQ(vxt_host_planner_threads(planner_.get()), 1U);
     expectTheSame(tally);
     cpp_.needle = {1, 60};
     c_.needle_diameter = 1;
@@ -193,17 +170,17 @@ TEST_F(Plans, AnswerAsTheCppInterfaceDoes) {
     cpp_.longest.reset();
     c_.max_length = 0;
     cpp_.steepest = c_.max_angle = 20;
-    c_.has_max_angle = 1;
+    c_.limit_angle = 1;
     expectTheSame(tally);
     cpp_.steepest.reset();
-    c_.has_max_angle = 0;
+    c_.limit_angle = 0;
     EXPECT_GT(tally.safe, 20U);
     EXPECT_GT(tally.unsafe, 5U);
     EXPECT_GT(tally.safeTriangles, 0U);
     EXPECT_GT(tally.leftOut, 0U);
     EXPECT_EQ(tally.clearTriangles, 0U) << "nobody asked";
-    cpp_.triangleClearances = true;
-    c_.triangle_clearances = 1;
+    cpp_.triangleDistances = true;
+    c_.triangle_distances = 1;
     expectTheSame(tally);
     EXPECT_GT(tally.clearTriangles, 0U);
     std::cout << tally.safe << " safe, " << tally.unsafe << " not, " << tally.safeTriangles << " triangles safe, "
@@ -224,7 +201,7 @@ TEST_F(Plans, EntriesOfALabelAndOfABallAndAMeshAreTheCppInterfaces) {
     cpp_.mesh = cpu::PlanMesh{&both_.mesh, {0.5, 0.5, 0}, {1, 0, 1}};
     c_.mesh = both_.cMeshHandle.get();
     c_.mesh_tip[0] = c_.mesh_tip[1] = 0.5;
-    c_.mesh_axis[0] = 1;
+    c_.mesh_axis[0] = c_.mesh_axis[2] = 1;
     expectTheSame(tally);
     EXPECT_GT(tally.safe, 0U);
     EXPECT_GT(tally.unsafe, 0U);
@@ -246,76 +223,72 @@ TEST_F(Plans, EntriesWhereTheImageEndsAreTheCppInterfaces) {
 
 TEST_F(Plans, RefuseWhatTheCppInterfaceRefuses) {
     const auto with = [this](auto change) {
-        const vxt_plan_task before = c_;
+        const vxt_plan before = c_;
         change(c_);
         std::string text = refused();
         c_ = before;
         return text;
     };
     const double nan = std::nan("");
-    EXPECT_THAT(with([&](auto& task) { task.target[1] = nan; }), HasSubstr("the target"));
-    EXPECT_THAT(with([&](auto& task) { task.margin = nan; }), HasSubstr("the margin nan mm"));
-    EXPECT_THAT(with([&](auto& task) { task.needle_diameter = -1; }), HasSubstr("the needle"));
-    EXPECT_THAT(with([&](auto& task) { task.max_length = nan; }), HasSubstr("the largest length nan"));
-    EXPECT_THAT(with([&](auto& task) { task.has_max_angle = 1, task.max_angle = nan; }),
-                HasSubstr("the largest angle nan"));
-    EXPECT_THAT(with([&](auto& task) { task.entries = 0; }), HasSubstr("entries is 0"));
-    EXPECT_THAT(with([&](auto& task) { task.entry_transfer_function = nullptr; }), HasSubstr("is null"));
-    EXPECT_THAT(with([&](auto& task) { task.entry_volume = nullptr; }), HasSubstr("neither volume nor labels"));
-    EXPECT_THAT(with([&](auto& task) { task.obstacle_count = 0; }), HasSubstr("there are no obstacles"));
-    EXPECT_THAT(with([&](auto& task) { task.obstacles = nullptr; }), HasSubstr("obstacle is null"));
-    EXPECT_THAT(with([&](auto& task) { task.mesh = both_.cMeshHandle.get(), task.mesh_axis[2] = 0; }),
-                HasSubstr("its axis has no length"));
-    EXPECT_THAT(with([&](auto& task) { task.struct_size = 3; }), HasSubstr("task: struct_size is 3"));
+    EXPECT_THAT(with([&](auto& plan) { plan.target[1] = nan; }), HasSubstr("the target"));
+    EXPECT_THAT(with([&](auto& plan) { plan.margin = nan; }), HasSubstr("the margin nan mm"));
+    EXPECT_THAT(with([&](auto& plan) { plan.needle_diameter = -1; }), HasSubstr("the needle"));
+    EXPECT_THAT(with([&](auto& plan) { plan.max_length = nan; }), HasSubstr("the max length nan"));
+    EXPECT_THAT(with([&](auto& plan) { plan.limit_angle = 1, plan.max_angle = nan; }), HasSubstr("the max angle nan"));
+    EXPECT_THAT(with([&](auto& plan) { plan.max = -1; }), HasSubstr("-1"));
+    EXPECT_THAT(with([&](auto& plan) { plan.tolerance = nan; }), HasSubstr("the tolerance nan mm"));
+    EXPECT_THAT(with([&](auto& plan) { plan.entry_transfer_function = nullptr; }), HasSubstr("is null"));
+    EXPECT_THAT(with([&](auto& plan) { plan.entry_volume = nullptr; }), HasSubstr("neither volume nor labels"));
+    EXPECT_THAT(with([&](auto& plan) { plan.obstacle_count = 0; }), HasSubstr("there are no obstacles"));
+    EXPECT_THAT(with([&](auto& plan) { plan.obstacles = nullptr; }), HasSubstr("obstacles is null"));
+    EXPECT_THAT(with([&](auto& plan) { plan.mesh = both_.cMeshHandle.get(), plan.mesh_axis[2] = nan; }),
+                HasSubstr("axis"));
+    EXPECT_THAT(with([&](auto& plan) { plan.struct_size = 3; }), HasSubstr("question: struct_size is 3"));
+    c_.entries = kMaxEntries + 1;
+    EXPECT_EQ(ask(), VXT_ERROR_LIMIT_EXCEEDED);
+    c_.entries = 0;
     cObstacles_[0].avoid = nullptr;
     EXPECT_EQ(refused(), "obstacle: avoid is null");
     cObstacles_[0].avoid_count = 0;
     EXPECT_THAT(refused(), HasSubstr("obstacle 0: there is a label map, and none of its labels is to be avoided"));
     cObstacles_[0].labels = nullptr;
     EXPECT_THAT(refused(), HasSubstr("obstacle 0: transferFunction and labels are both null"));
-    cObstacles_[1].struct_size = 0;
-    EXPECT_THAT(refused(), HasSubstr("obstacle 1: struct_size is 0"));
-    EXPECT_STREQ(vxt_safety_name(static_cast<vxt_safety>(9)), "unknown");
+    EXPECT_EQ(vxt_ask_plan(nullptr, &c_, answer_.get()), VXT_ERROR_INVALID_ARGUMENT);
+    EXPECT_STREQ(vxt_last_error(nullptr), "engine is null");
+    EXPECT_EQ(vxt_ask_plan(engine_.get(), nullptr, answer_.get()), VXT_ERROR_INVALID_ARGUMENT);
+    EXPECT_STREQ(vxt_last_error(nullptr), "question is null");
+    EXPECT_EQ(vxt_ask_plan(engine_.get(), &c_, nullptr), VXT_ERROR_INVALID_ARGUMENT);
+    EXPECT_STREQ(vxt_last_error(nullptr), "answer is null");
+    EXPECT_EQ(vxt_answer_columns(answer_.get()), 0U);
 }
 
-TEST_F(Plans, RefuseNullAndDescsOutOfRange) {
-    const auto text = [](vxt_result result) {
-        EXPECT_EQ(result, VXT_ERROR_INVALID_ARGUMENT);
-        return std::string(vxt_last_error(nullptr));
-    };
-    const Owned<vxt_plan> plan = newPlan();
-    EXPECT_EQ(text(vxt_host_planner_plan(nullptr, &c_, plan.get())), "planner is null");
-    EXPECT_EQ(text(vxt_host_planner_plan(planner_.get(), nullptr, plan.get())), "task is null");
-    EXPECT_EQ(text(vxt_host_planner_plan(planner_.get(), &c_, nullptr)), "plan is null");
-    EXPECT_EQ(text(vxt_plan_get(nullptr, nullptr)), "plan is null");
-    EXPECT_EQ(text(vxt_plan_get(plan.get(), nullptr)), "view is null");
-    EXPECT_EQ(text(vxt_plan_create(nullptr)), "the place for the new object is null");
-    EXPECT_EQ(vxt_host_planner_threads(nullptr), 0U);
-    EXPECT_EQ(viewOf(*plan).path_count, 0U);
-    vxt_plan_destroy(nullptr);
-    vxt_host_planner_destroy(nullptr);
-    vxt_host_planner* planner = nullptr;
-    vxt_host_planner_desc desc = vxt_host_planner_desc_init();
-    desc.tolerance = std::nan("");
-    EXPECT_THAT(text(vxt_host_planner_create(&desc, &planner)), HasSubstr("the tolerance nan mm"));
-    desc = vxt_host_planner_desc_init();
-    desc.most_steps = 0;
-    EXPECT_THAT(text(vxt_host_planner_create(&desc, &planner)), HasSubstr("at most 0 steps are allowed"));
-    EXPECT_EQ(planner, nullptr);
+TEST_F(Plans, HaveTheCppInterfacesDefaults) {
+    // All that may be 0 is.
+    cpp_.surface.entries = cpu::EntrySurface{}.entries;
+    cpp_.surface.threshold = kDefaultThreshold;
+    cpp_.maximum = cpu::Plan{}.maximum;
+    obstacles_[1].threshold = kDefaultThreshold;
+    c_.entries = 0;
+    c_.entry_threshold = c_.max = 0;
+    cObstacles_[1].opacity_threshold = 0;
+    PlanTally tally;
+    expectTheSame(tally);
+    cpp_.mesh = cpu::PlanMesh{.mesh = &both_.mesh};
+    c_.mesh = both_.cMeshHandle.get();
+    expectTheSame(tally);
 }
 
 TEST_F(Plans, AreCancelledAndHoldWhatTheyHeld) {
-    const Owned<vxt_plan> plan = newPlan();
-    need(ask(*plan));
-    const std::size_t paths = viewOf(*plan).path_count;
+    need(ask());
+    const std::size_t paths = findColumn(*answer_, "paths", "entry").rows;
     EXPECT_GT(paths, 0U);
-    const auto cancel = made<vxt_cancel>(vxt_cancel_destroy, [](auto out) { return vxt_cancel_create(out); });
+    const Owned<vxt_cancel> cancel = newCancel();
     vxt_cancel_set(cancel.get(), 1);
     c_.cancel = cancel.get();
-    EXPECT_EQ(ask(*plan), VXT_ERROR_CANCELLED);
-    EXPECT_EQ(viewOf(*plan).path_count, paths);
+    EXPECT_EQ(ask(), VXT_ERROR_CANCELLED);
+    EXPECT_EQ(findColumn(*answer_, "paths", "entry").rows, paths);
     vxt_cancel_set(cancel.get(), 0);
-    need(ask(*plan));
+    need(ask());
 }
 
 TEST_F(Plans, LabelsAlongALineGoAsFarAsThereIsRoom) {

@@ -13,7 +13,7 @@ class ArgumentsTest : public CliTest {
   protected:
     /// detect, with an argument that must be refused.
     static std::string badDetect(const Arguments& more) {
-        Arguments all{"detect", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:500"};
+        Arguments all{"count", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:500"};
         all.insert(all.end(), more.begin(), more.end());
         return refused(2, all);
     }
@@ -29,12 +29,25 @@ TEST_F(ArgumentsTest, Version) {
 }
 
 TEST_F(ArgumentsTest, HelpOfEverythingHasAnExample) {
-    const std::vector<Arguments> commands{{},       {"detect"},       {"devices"},        {"info"},
+    const std::vector<Arguments> commands{{},       {"touch"},        {"count"},          {"distance"},
+                                          {"area"}, {"motion"},       {"devices"},        {"info"},
                                           {"make"}, {"make", "mesh"}, {"make", "volume"}, {"make", "poses"}};
     for (Arguments command : commands) {
         command.push_back("--help");
         EXPECT_THAT(output(command), HasSubstr("Example")) << testing::PrintToString(command);
     }
+}
+
+TEST_F(ArgumentsTest, HelpIsACommand) {
+    EXPECT_EQ(output({"help"}), output({"--help"}));
+    EXPECT_EQ(output({"help", "touch"}), output({"touch", "--help"}));
+    EXPECT_EQ(output({"help", "make", "mesh"}), output({"make", "mesh", "--help"}));
+    EXPECT_THAT(refused(2, {"help", "tuch"}), HasSubstr("unknown command 'tuch', did you mean touch?"));
+}
+
+TEST_F(ArgumentsTest, SpacesInCapitals) {
+    output({"count", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:500", "--mesh-space", "LPS"});
+    EXPECT_THAT(badDetect({"--mesh-space", "LPI"}), HasSubstr("lps, ras"));
 }
 
 TEST_F(ArgumentsTest, CommandsThatAreNot) {
@@ -46,7 +59,7 @@ TEST_F(ArgumentsTest, CommandsThatAreNot) {
 
 TEST_F(ArgumentsTest, UnknownOptionsNameTheHelp) {
     EXPECT_THAT(badDetect({"--treshold", "0.2"}),
-                AllOf(HasSubstr("voxtact detect: unknown argument '--treshold'"), HasSubstr("voxtact detect --help")));
+                AllOf(HasSubstr("voxtact count: unknown argument '--treshold'"), HasSubstr("voxtact count --help")));
     EXPECT_THAT(badDetect({"--label", "x.nii"}), HasSubstr("'--label'"));
     EXPECT_THAT(badDetect({"left-over"}), HasSubstr("'left-over'"));
     EXPECT_THAT(refused(2, {"devices", "--poses", "x"}), HasSubstr("voxtact devices: unknown argument '--poses'"));
@@ -54,17 +67,17 @@ TEST_F(ArgumentsTest, UnknownOptionsNameTheHelp) {
 }
 
 TEST_F(ArgumentsTest, WhatIsRequired) {
-    EXPECT_THAT(refused(2, {"detect", "--mesh", "builtin:scalpel"}), HasSubstr("--volume is required"));
-    EXPECT_THAT(refused(2, {"detect", "--volume", "builtin:head"}), HasSubstr("--mesh is required"));
+    EXPECT_THAT(refused(2, {"count", "--mesh", "builtin:scalpel"}), HasSubstr("--volume is required"));
+    EXPECT_THAT(refused(2, {"count", "--volume", "builtin:head"}), HasSubstr("--mesh is required"));
     EXPECT_THAT(refused(2, {"make", "mesh", "builtin:scalpel"}), HasSubstr("OUTPUT is required"));
 }
 
 TEST_F(ArgumentsTest, NamesNobodyKnows) {
-    EXPECT_THAT(badDetect({"--count", "fingers"}),
+    EXPECT_THAT(badDetect({"--method", "fingers"}),
                 AllOf(HasSubstr("'fingers' is not known"),
                       HasSubstr("query, query-any, atomic, subgroup, compute, cpu, auto")));
     EXPECT_THAT(badDetect({"--projection", "sideways"}),
-                AllOf(HasSubstr("'sideways' is not known"), HasSubstr("view, two-view, dominant-axis, conservative")));
+                AllOf(HasSubstr("'sideways' is not known"), HasSubstr("view, two-view, dominant-axis, certified")));
     EXPECT_THAT(badDetect({"--filter", "nearest"}), AllOf(HasSubstr("nearest"), HasSubstr("hardware, exact")));
     EXPECT_THAT(badDetect({"--boundary", "wrap"}), HasSubstr("auto, range, clamp"));
     EXPECT_THAT(badDetect({"--format", "xml"}), HasSubstr("csv, json, text"));
@@ -74,21 +87,21 @@ TEST_F(ArgumentsTest, NamesNobodyKnows) {
 
 TEST_F(ArgumentsTest, ProjectionsAndWhatGoesWithThem) {
     for (const char* method : {"query", "query-any", "atomic", "subgroup"}) {
-        EXPECT_THAT(badDetect({"--projection", "conservative", "--count", method}),
-                    AllOf(HasSubstr(std::string("--count ") + method), HasSubstr("compute, cpu and auto")));
+        EXPECT_THAT(badDetect({"--projection", "certified", "--method", method}),
+                    AllOf(HasSubstr(std::string("--method ") + method), HasSubstr("compute, cpu or auto")));
     }
-    EXPECT_THAT(badDetect({"--projection", "conservative", "--filter", "hardware"}), HasSubstr("--filter hardware: "));
-    EXPECT_THAT(badDetect({"--boundary", "clamp"}), HasSubstr("--boundary clamp: the projection conservative"));
-    for (const char* projection : {"conservative", "dominant-axis"}) {
+    EXPECT_THAT(badDetect({"--projection", "certified", "--filter", "hardware"}), HasSubstr("--filter hardware: "));
+    EXPECT_THAT(badDetect({"--boundary", "clamp"}), HasSubstr("--boundary clamp: --projection certified"));
+    for (const char* projection : {"certified", "dominant-axis"}) {
         EXPECT_THAT(badDetect({"--projection", projection, "--size", "256x256"}),
                     AllOf(HasSubstr("--size: "), HasSubstr(projection), HasSubstr("--projection view")));
         EXPECT_THAT(badDetect({"--projection", projection, "--camera", "x.txt"}),
                     AllOf(HasSubstr("--camera: "), HasSubstr(projection)));
     }
-    EXPECT_THAT(badDetect({"--size", "256x256"}), AllOf(HasSubstr("--size: "), HasSubstr("conservative")));
+    EXPECT_THAT(badDetect({"--size", "256x256"}), AllOf(HasSubstr("--size: "), HasSubstr("certified")));
     EXPECT_THAT(badDetect({"--samples-per-voxel", "2"}),
-                AllOf(HasSubstr("--samples-per-voxel: "), HasSubstr("dominant-axis"), HasSubstr("conservative")));
-    EXPECT_THAT(badDetect({"--count", "query", "--resolution", "0.5"}),
+                AllOf(HasSubstr("--samples-per-voxel: "), HasSubstr("dominant-axis"), HasSubstr("certified")));
+    EXPECT_THAT(badDetect({"--method", "query", "--resolution", "0.5"}),
                 AllOf(HasSubstr("--resolution: "), HasSubstr("view")));
     for (const char* samples : {"0", "17", "1.5", ""}) {
         EXPECT_THAT(badDetect({"--projection", "dominant-axis", "--samples-per-voxel", samples}),
@@ -104,13 +117,13 @@ TEST_F(ArgumentsTest, OutputsBesideTheCounts) {
                 AllOf(HasSubstr("--contacts: "), HasSubstr(".csv, .ply, .vtp or .mrk.json")));
     EXPECT_THAT(badDetect({"--contacts", path("c")}), HasSubstr("--contacts: "));
     EXPECT_THAT(badDetect({"--max-depth", "3"}), AllOf(HasSubstr("--max-depth: "), HasSubstr("--contacts")));
-    EXPECT_THAT(badDetect({"--most-contacts", "3"}), AllOf(HasSubstr("--most-contacts: "), HasSubstr("--contacts")));
+    EXPECT_THAT(badDetect({"--max-contacts", "3"}), AllOf(HasSubstr("--max-contacts: "), HasSubstr("--contacts")));
     EXPECT_THAT(badDetect({"--label-names", "x"}), AllOf(HasSubstr("--label-names: "), HasSubstr("--labels")));
     for (const char* depth : {"0", "-1", "inf", "x"}) {
         EXPECT_THAT(badDetect({"--contacts", path("c.csv"), "--max-depth", depth}), HasSubstr("--max-depth"));
     }
     for (const char* most : {"0", "-1", "4294967296"}) {
-        EXPECT_THAT(badDetect({"--contacts", path("c.csv"), "--most-contacts", most}), HasSubstr("--most-contacts"));
+        EXPECT_THAT(badDetect({"--contacts", path("c.csv"), "--max-contacts", most}), HasSubstr("--max-contacts"));
     }
     EXPECT_EQ(filesInFolder(), 0U);
 }
@@ -133,7 +146,7 @@ TEST_F(ArgumentsTest, NumbersThatCannotBeUsed) {
         EXPECT_THAT(badDetect({"--size", size}), HasSubstr("--size")) << size;
     }
     for (const char* threshold : {"-0.1", "1.1", "nan", "inf", "x", "0.1x", ""}) {
-        EXPECT_THAT(badDetect({"--threshold", threshold}), HasSubstr("--threshold")) << threshold;
+        EXPECT_THAT(badDetect({"--opacity-threshold", threshold}), HasSubstr("--opacity-threshold")) << threshold;
     }
     for (const char* domain : {"5:5", "5:1", "5", "a:b", "0:inf", ":", ""}) {
         EXPECT_THAT(badDetect({"--tf-domain", domain}), HasSubstr("--tf-domain")) << domain;
@@ -145,20 +158,20 @@ TEST_F(ArgumentsTest, NumbersThatCannotBeUsed) {
     }
     EXPECT_THAT(badDetect({"--tf-size", "1"}), HasSubstr("--tf-size"));
     EXPECT_THAT(badDetect({"--mesh-scale", "0"}), HasSubstr("--mesh-scale"));
-    EXPECT_THAT(badDetect({"--threshold", "0.1", "--threshold", "0.2"}), HasSubstr("--threshold"));
+    EXPECT_THAT(badDetect({"--opacity-threshold", "0.1", "--opacity-threshold", "0.2"}),
+                HasSubstr("--opacity-threshold"));
 }
 
 TEST_F(ArgumentsTest, WhatIsOneIsNotGivenTwice) {
     const std::vector<std::pair<Arguments, Arguments>> cases{
-        {{"detect", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:200"}, {"--pose-tolerance", "1,2"}},
-        {{"detect", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:200", "--resume", path("run")},
-         {"--shard", "1/2"}},
+        {{"touch", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:200"}, {"--uncertainty", "1,2"}},
+        {{"count", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:200"}, {"--shard", "1/2"}},
         {{"render", "--volume", "builtin:head:18", "--output", path("x.png")}, {"--slice", "axial"}},
         {{"render", "--volume", "builtin:head:18", "--output", path("x.png"), "--slice", "axial"},
          {"--window", "-1:2"}},
         {{"plan", "--volume", "builtin:head:18", "--target", "0,0,0"}, {"--tip", "-1,2,3"}},
-        {{"detect", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:200"}, {"--threads", "1"}},
-        {{"detect", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:200"}, {"--output", "-"}}};
+        {{"count", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:200"}, {"--threads", "1"}},
+        {{"count", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:200"}, {"--output", "-"}}};
     for (const auto& [command, twice] : cases) {
         Arguments all = command;
         all.insert(all.end(), twice.begin(), twice.end());
@@ -176,8 +189,8 @@ TEST_F(ArgumentsTest, NoCurrentFolder) {
     std::filesystem::current_path(path("gone"));
     std::filesystem::remove(path("gone"));
     const std::string text = refused(1, {"make", "mesh", "builtin:scalpel:200", "x.stl"});
-    const std::string rows = refused(1, {"detect", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:200",
-                                         "--count", "cpu", "--output", "x.csv"});
+    const std::string rows = refused(1, {"count", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:200",
+                                         "--method", "cpu", "--output", "x.csv"});
     std::filesystem::current_path(before);
     EXPECT_THAT(text, AllOf(HasSubstr("'x.stl'"), HasSubstr("voxtact make")));
     EXPECT_THAT(rows, HasSubstr("x.csv"));
@@ -202,9 +215,9 @@ TEST_F(ArgumentsTest, OpacityOnTheCommandLine) {
 }
 
 TEST_F(ArgumentsTest, BuiltinsThatAreNot) {
-    EXPECT_THAT(refused(2, {"detect", "--volume", "builtin:brain", "--mesh", "builtin:scalpel"}),
+    EXPECT_THAT(refused(2, {"count", "--volume", "builtin:brain", "--mesh", "builtin:scalpel"}),
                 AllOf(HasSubstr("brain"), HasSubstr("head"), HasSubstr("sphere")));
-    EXPECT_THAT(refused(2, {"detect", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:3069"}),
+    EXPECT_THAT(refused(2, {"count", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:3069"}),
                 AllOf(HasSubstr("3068"), HasSubstr("3070")));
     EXPECT_THAT(refused(2, {"make", "mesh", "scalpel", path("x.stl")}), HasSubstr("builtin:"));
 }
@@ -212,7 +225,7 @@ TEST_F(ArgumentsTest, BuiltinsThatAreNot) {
 TEST_F(ArgumentsTest, NoDeviceNamesTheDriverPackage) {
     const RunOptions none{.environment = {{"VK_ICD_FILENAMES", "/nonexistent"}, {"VK_DRIVER_FILES", "/nonexistent"}}};
     for (const Arguments& arguments :
-         {Arguments{"detect", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:500", "--count", "query"},
+         {Arguments{"count", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:500", "--method", "query"},
           Arguments{"devices"}}) {
         EXPECT_THAT(refused(1, arguments, none), AllOf(HasSubstr("mesa-vulkan-drivers"), HasSubstr("lavapipe")));
     }
@@ -229,6 +242,19 @@ TEST_F(ArgumentsTest, NoValidationLayerNamesItsPackage) {
     const Ran ran = run({"devices", "--validate"}, {.environment = {{"VK_LAYER_PATH", path("")}}});
     EXPECT_EQ(ran.status, 1);
     EXPECT_THAT(ran.err, HasSubstr("vulkan-validationlayers"));
+}
+
+TEST_F(ArgumentsTest, ProgramsBesideThisOneAreStartedByName) {
+    const Ran help = run({"bench", "--help"});
+    EXPECT_EQ(help.status, 0);
+    EXPECT_THAT(help.out, HasSubstr("--latency"));
+    EXPECT_THAT(run({"help", "compare"}).out, HasSubstr("--oracle"));
+    EXPECT_THAT(run({"help", "compar"}).err, HasSubstr("did you mean compare?"));
+
+    RunOptions alone;
+    alone.program = path("voxtact");
+    std::filesystem::copy_file(builtProgram(), alone.program);
+    EXPECT_THAT(refused(1, {"bench", "--help"}, alone), HasSubstr("voxtact-bench: is not beside this program"));
 }
 
 } // namespace

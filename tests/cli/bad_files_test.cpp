@@ -18,7 +18,7 @@ constexpr const char* kIdentity = "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1\n";
 class BadFilesTest : public CliTest {
   protected:
     static std::string badDetect(const Arguments& more) {
-        Arguments all{"detect", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:500"};
+        Arguments all{"count", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:500"};
         all.insert(all.end(), more.begin(), more.end());
         return refused(1, all);
     }
@@ -27,8 +27,8 @@ class BadFilesTest : public CliTest {
 class BadVolumesTest : public CliDeviceTest {
   protected:
     [[nodiscard]] std::string bad(const std::string& name) const {
-        std::string text = refused(
-            1, {"detect", "--volume", path(name), "--mesh", "builtin:scalpel:500", "--output", path("out.csv")});
+        std::string text =
+            refused(1, {"count", "--volume", path(name), "--mesh", "builtin:scalpel:500", "--output", path("out.csv")});
         EXPECT_THAT(text, HasSubstr(path(name)));
         EXPECT_FALSE(std::filesystem::exists(path("out.csv")));
         return text;
@@ -36,9 +36,9 @@ class BadVolumesTest : public CliDeviceTest {
 };
 
 TEST_F(BadFilesTest, MissingFilesAreNamed) {
-    EXPECT_THAT(refused(1, {"detect", "--volume", path("no.nii"), "--mesh", "builtin:scalpel"}),
-                AllOf(HasSubstr("voxtact detect: "), HasSubstr(path("no.nii"))));
-    EXPECT_THAT(refused(1, {"detect", "--volume", "builtin:head:18", "--mesh", path("no.stl")}),
+    EXPECT_THAT(refused(1, {"count", "--volume", path("no.nii"), "--mesh", "builtin:scalpel"}),
+                AllOf(HasSubstr("voxtact count: "), HasSubstr(path("no.nii"))));
+    EXPECT_THAT(refused(1, {"count", "--volume", "builtin:head:18", "--mesh", path("no.stl")}),
                 HasSubstr(path("no.stl")));
     for (const char* option : {"--poses", "--camera", "--transfer-function"}) {
         EXPECT_THAT(badDetect({"--projection", "view", option, path("no.txt")}), HasSubstr(path("no.txt")));
@@ -51,12 +51,13 @@ TEST_F(BadFilesTest, PipesAndDevicesAreRefused) {
     for (const char* name : {"pipe.nii", "pipe.stl", "pipe"}) {
         ASSERT_EQ(::mkfifo(path(name).c_str(), 0600), 0);
     }
-    EXPECT_THAT(refused(1, {"detect", "--volume", path("pipe.nii"), "--mesh", "builtin:scalpel:500"}),
+    EXPECT_THAT(refused(1, {"count", "--volume", path("pipe.nii"), "--mesh", "builtin:scalpel:500"}),
                 AllOf(HasSubstr(path("pipe.nii")), HasSubstr(kPipe)));
-    EXPECT_THAT(refused(1, {"detect", "--volume", "builtin:head:18", "--mesh", path("pipe.stl")}),
+    EXPECT_THAT(refused(1, {"count", "--volume", "builtin:head:18", "--mesh", path("pipe.stl")}),
                 AllOf(HasSubstr(path("pipe.stl")), HasSubstr(kPipe)));
     for (const char* option : {"--poses", "--camera", "--transfer-function", "--labels"}) {
-        EXPECT_THAT(badDetect({"--projection", "view", option, path("pipe")}),
+        // Labels are read for an output.
+        EXPECT_THAT(badDetect({"--projection", "view", "--contacts", path("c.csv"), option, path("pipe")}),
                     AllOf(HasSubstr(path("pipe")), HasSubstr(kPipe)))
             << option;
     }
@@ -106,13 +107,13 @@ TEST_F(BadFilesTest, MeshesThatAreNone) {
     writeText(path("empty.obj"), "");
     writeText(path("notes.stl"), "this is not a mesh");
     for (const char* name : {"empty.obj", "notes.stl"}) {
-        EXPECT_THAT(refused(1, {"detect", "--volume", "builtin:head:18", "--mesh", path(name)}), HasSubstr(path(name)));
+        EXPECT_THAT(refused(1, {"count", "--volume", "builtin:head:18", "--mesh", path(name)}), HasSubstr(path(name)));
     }
 }
 
 TEST_F(BadVolumesTest, NoImage) {
     writeText(path("garbage.nii"), "this is not an image");
-    EXPECT_THAT(bad("garbage.nii"), HasSubstr("voxtact detect: "));
+    EXPECT_THAT(bad("garbage.nii"), HasSubstr("voxtact count: "));
     writeText(path("garbage.txt"), "this is not an image");
     EXPECT_THAT(bad("garbage.txt"), HasSubstr("ending"));
     std::filesystem::create_directory(path("folder"));

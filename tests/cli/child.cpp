@@ -36,7 +36,8 @@ Child::Child(const Arguments& arguments, std::uint64_t longestFile) : errors_(st
         throw std::runtime_error("no temporary file");
     }
     std::vector<std::string> words{VOXTACT_PROGRAM};
-    words.insert(words.end(), arguments.begin(), arguments.end());
+    const Arguments all = withForce(arguments);
+    words.insert(words.end(), all.begin(), all.end());
     std::vector<char*> pointers;
     for (std::string& word : words) {
         pointers.push_back(word.data());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which device --device means, on machines that this one is not.
-#include "device/vulkan_device.h"
+#include "vulkan/own/vulkan_device.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -9,10 +9,14 @@
 #include <fstream>
 #include <memory>
 #include <regex>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
 
 namespace voxtact::test {
 
@@ -59,6 +63,21 @@ int openOutput(const RunOptions& options, const Capture& captured) {
     return options.output.empty() ? ::dup(captured.number()) : ::open(options.output.c_str(), O_WRONLY | O_CLOEXEC);
 }
 
+/// Whether a test writes over what it has written before.
+bool overwrites(const Arguments& arguments) {
+    const std::set<std::string> outputs{"--output",  "--contacts", "--triangles", "--witness", "--by-target",
+                                        "--surface", "--heat-map", "--report",    "--picture"};
+    const bool makesFile = arguments.size() == 4 && arguments[0] == "make";
+    for (std::size_t i = 1; i < arguments.size(); ++i) {
+        const bool isOutput = outputs.contains(arguments[i - 1]) || (makesFile && i == 3);
+        std::error_code unknown; // a name that is too long
+        if (isOutput && std::filesystem::is_regular_file(arguments[i], unknown)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 [[noreturn]] void becomeProgram(const Arguments& arguments, const RunOptions& options, int out, int err) {
     ::dup2(out, STDOUT_FILENO);
     ::dup2(err, STDERR_FILENO);
@@ -66,14 +85,16 @@ int openOutput(const RunOptions& options, const Capture& captured) {
     for (const auto& [name, value] : options.environment) {
         ::setenv(name.c_str(), value.c_str(), 1);
     }
-    std::vector<std::string> words{VOXTACT_PROGRAM};
-    words.insert(words.end(), arguments.begin(), arguments.end());
+    const std::string program = options.program.empty() ? VOXTACT_PROGRAM : options.program;
+    std::vector<std::string> words{program};
+    const Arguments all = options.keepExisting ? arguments : withForce(arguments);
+    words.insert(words.end(), all.begin(), all.end());
     std::vector<char*> pointers;
     for (std::string& word : words) {
         pointers.push_back(word.data());
     }
     pointers.push_back(nullptr);
-    ::execv(VOXTACT_PROGRAM, pointers.data());
+    ::execv(program.c_str(), pointers.data());
     ::_exit(127);
 }
 
@@ -93,6 +114,17 @@ void setCaches() {
     }
     ::setenv("MESA_SHADER_CACHE_DIR", shaders.empty() ? VOXTACT_TEST_CACHE : shaders.c_str(), 1);
     ::setenv("XDG_CACHE_HOME", VOXTACT_TEST_CACHE, 1);
+}
+
+Arguments withForce(Arguments arguments) {
+    if (overwrites(arguments)) {
+        arguments.emplace_back("--force");
+    }
+    return arguments;
+}
+
+std::string builtProgram() {
+    return VOXTACT_PROGRAM;
 }
 
 Ran run(const Arguments& arguments, const RunOptions& options) {
@@ -157,10 +189,7 @@ void writeText(const fs::path& path, const std::string& text) {
 }
 
 std::string sealed(const std::string& content) {
-    std::uint64_t sum = 0xcbf29ce484222325U;
-    for (const char c : content) {
-        sum = (sum ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-    }
+    const std::uint64_t sum = XXH3_64bits(content.data(), content.size());
     std::array<char, 64> head{};
     static_cast<void>(std::snprintf(head.data(), head.size(), "voxtact cache %016zx %016llx\n", content.size(),
                                     static_cast<unsigned long long>(sum)));
@@ -242,9 +271,9 @@ void CliDeviceTest::SetUp() {
 }
 
 Arguments CliDeviceTest::detect(const Arguments& more) {
-    Arguments all{"detect", "--volume", "builtin:head:30", "--mesh", "builtin:scalpel:500"};
-    if (std::find(more.begin(), more.end(), "--count") == more.end()) {
-        all.insert(all.end(), {"--count", "query"});
+    Arguments all{"count", "--volume", "builtin:head:30", "--mesh", "builtin:scalpel:500"};
+    if (std::find(more.begin(), more.end(), "--method") == more.end()) {
+        all.insert(all.end(), {"--method", "query"});
     }
     all.insert(all.end(), more.begin(), more.end());
     return all;

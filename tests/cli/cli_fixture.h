@@ -19,6 +19,8 @@ struct RunOptions {
     std::map<std::string, std::string> environment{}; ///< set in addition to the tests' own
     std::string output{};                             ///< a file for standard output: /dev/full. Empty: captured
     bool closedPipe = false;                          ///< standard output is a pipe that nobody reads
+    bool keepExisting = false;                        ///< without --force, which an output that exists gets here
+    std::string program{};                            ///< a copy of the program; empty: the built one
     std::string note{};                               ///< for output(): what the only note says; empty: there is none
 };
 
@@ -32,6 +34,10 @@ struct Ran {
 /// Mesa's compiled shaders, which change no answer and take seconds each, there is one store for all tests.
 void setCaches();
 
+/// With --force where an output exists.
+Arguments withForce(Arguments arguments);
+/// The path of the built program.
+std::string builtProgram();
 /// Runs the built program and waits for it.
 Ran run(const Arguments& arguments, const RunOptions& options = {});
 
@@ -47,7 +53,7 @@ std::vector<std::map<std::string, std::string>> rowsOf(const std::string& text);
 std::string readText(const std::filesystem::path& path);
 void writeText(const std::filesystem::path& path, const std::string& text);
 
-/// A file of the cache folder, as the program writes it: a line with size and FNV-1a sum before the content.
+/// A file of the cache folder, as the program writes it: a line with size and XXH3 sum before the content.
 std::string sealed(const std::string& content);
 
 /// A NIfTI-1 file, written by hand: sizes as in its header, `type` and `bits` as the standard numbers them, and so

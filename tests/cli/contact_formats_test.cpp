@@ -22,8 +22,8 @@ class ContactFormatsTest : public CliTest {
     [[nodiscard]] std::vector<std::vector<std::string>> contacts(const std::string& file,
                                                                  const Arguments& more = {}) const {
         for (const std::string& to : {file, path("contacts.csv")}) {
-            Arguments all{"detect",  "--volume",        "builtin:head:30", "--mesh", "builtin:scalpel:500",
-                          "--poses", path("poses.txt"), "--count",         "cpu",    "--contacts",
+            Arguments all{"count",   "--volume",        "builtin:head:30", "--mesh", "builtin:scalpel:500",
+                          "--poses", path("poses.txt"), "--method",        "cpu",    "--contacts",
                           to,        "--output",        path("rows.csv")};
             all.insert(all.end(), more.begin(), more.end());
             output(all);
@@ -118,7 +118,7 @@ TEST_F(ContactFormatsTest, VtpHasTheBoxes) {
     ASSERT_EQ(lines.size(), 24 * boxes);
     EXPECT_TRUE(std::isnan(depths.back())) << "a corner has no depth";
     for (std::size_t box = 0; box < boxes; ++box) {
-        // pose,mesh,volume,hit,count,exact,method,projection,contacts,depth,min_x,min_y,min_z,max_x,max_y,max_z
+        // pose,mesh,volume,touch,count,count_exact,method,projection,contacts,depth,min_x,min_y,min_z,max_x,max_y,max_z
         const std::size_t first = 3 * (rows.size() + 8 * box);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             EXPECT_NEAR(points[first + axis], std::stod(bounds[box].at(10 + axis)), 1e-5);
@@ -165,7 +165,7 @@ TEST_F(ContactFormatsTest, MarkupsHaveTheContactsAndTheBoxes) {
 TEST_F(ContactFormatsTest, NamesThatAreAwkwardInXml) {
     const std::string name = path("a--b <&> \"c\" \xEF\xBF\xBE\xEF\xBF\xBF.stl");
     output({"make", "mesh", "builtin:scalpel:500", name});
-    output({"detect", "--volume", "builtin:head:30", "--mesh", name, "--count", "cpu", "--contacts", path("c.vtp")});
+    output({"count", "--volume", "builtin:head:30", "--mesh", name, "--method", "cpu", "--contacts", path("c.vtp")});
     const std::string text = readText(path("c.vtp"));
     const std::string comment = text.substr(0, text.find("<VTKFile"));
     EXPECT_THAT(comment, HasSubstr("a- -b &lt;&amp;&gt; &quot;c&quot; \\xef\\xbf\\xbe\\xef\\xbf\\xbf.stl"));

@@ -4,7 +4,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <map>
 #include <set>
 
 namespace voxtact::test {
@@ -43,24 +42,9 @@ TEST_F(DevicesTest, EveryMethodOfEveryDeviceHasAVerdict) {
     }
 }
 
-TEST_F(DevicesTest, SpeedsAndTheChoiceOfAuto) {
-    std::map<int, int> chosen;
-    const Json json = Json::parse(output({"devices", "--format", "json"}));
-    for (const Json& row : json.at("rows")) {
-        const bool trusted = row.at("trusted") == 1;
-        EXPECT_EQ(row.at("pairs_per_s").is_null(), !trusted);
-        chosen[row.at("index")] += row.at("auto").get<int>();
-        EXPECT_TRUE(trusted || row.at("auto") == 0);
-        EXPECT_FALSE(jsonMethod(row) == "query-any" && row.at("auto") == 1);
-    }
-    for (const auto& [index, count] : chosen) {
-        EXPECT_LE(count, 1) << index;
-    }
-}
-
 TEST_F(DevicesTest, CsvHeader) {
     EXPECT_EQ(linesOf(output({"devices", "--format", "csv"})).at(0),
-              "index,name,type,api,driver,subgroup_size,default,method,available,trusted,verdict,pairs_per_s,auto");
+              "index,name,type,api,driver,subgroup_size,default,method,available,trusted,verdict");
 }
 
 TEST_F(DevicesTest, OneDevice) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // voxtact info: what it says of volumes and meshes whose content is known. No device is needed.
-#include "app/info/mesh_info.h"
+#include "cli/info/mesh_info.h"
 #include "cli_fixture.h"
 #include "voxtact/samples.h"
 
@@ -68,7 +68,7 @@ TEST_F(InfoTest, OneOfSeveralImages) {
     EXPECT_THAT(refused(1, {"info", file + "#last"}), HasSubstr("is not the number of an image in"));
     EXPECT_THAT(refused(2, {"info", file + "#1", "--output", file}), HasSubstr("is not overwritten"));
     // Wherever a volume is named.
-    const Arguments detect{"detect", "--volume", file + "#2", "--mesh", "builtin:scalpel:300", "--count", "cpu"};
+    const Arguments detect{"count", "--volume", file + "#2", "--mesh", "builtin:scalpel:300", "--method", "cpu"};
     EXPECT_EQ(linesOf(output(detect, {.note = "16 to 23, is opaque"})).size(), 2U);
     writeText(path("path.txt"), "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1\n1 0 0 0 0 1 0 0 0 0 1 9 0 0 0 1\n");
     const Arguments motion{"motion",  "--volume",      file + "#2", "--mesh", "builtin:scalpel:300",
@@ -79,10 +79,30 @@ TEST_F(InfoTest, OneOfSeveralImages) {
     EXPECT_EQ(rows({path("a#1.nii")}).at(0).at("value_max"), 15);
 }
 
+/// Of the values 0 to 15, by the control points themselves: no table rounds.
+TEST_F(InfoTest, TheShareOfOpaqueVoxelsIsThatOfThePoints) {
+    const std::string file = counted({1, 0, 0, 10, 0, 2, 0, 20, 0, 0, 3, 30});
+    const auto percent = [&](const Arguments& more) {
+        Arguments all{file};
+        all.insert(all.end(), more.begin(), more.end());
+        return rows(all).at(0).at("opaque_percent").get<double>();
+    };
+    EXPECT_EQ(percent({"--opacity", "7:0,8:1", "--opacity-threshold", "1"}), 50) << "8 to 15";
+    EXPECT_EQ(percent({"--opacity", "8:0,8:1", "--opacity-threshold", "1", "--tf-size", "2"}), 50);
+    EXPECT_EQ(percent({"--iso", "8"}), 50);
+    EXPECT_EQ(percent({"--iso", "4:7", "--opacity-threshold", "1"}), 25);
+    EXPECT_EQ(percent({"--iso", "3:3"}), 6.25);
+    EXPECT_EQ(percent({"--iso", "15.5"}), 0);
+    for (const char* const wrong : {"", "a", "1:0", "1:2:3", ":5", "5:", "nan"}) {
+        EXPECT_THAT(refused(2, {"info", file, "--iso", wrong}), HasSubstr("--iso")) << wrong;
+    }
+    EXPECT_THAT(refused(2, {"info", file, "--iso", "1", "--opacity", "0:0,1:1"}), HasSubstr("--opacity"));
+}
+
 TEST_F(InfoTest, AVolumeWhoseVoxelsAreKnown) {
     // x runs to the right at 1 mm, y to the front at 2 mm, z upwards at 3 mm.
     const std::string file = counted({1, 0, 0, 10, 0, 2, 0, 20, 0, 0, 3, 30});
-    const Json row = rows({file, "--opacity", "0:0,16:1", "--tf-domain", "0:16", "--threshold", "0.5"}).at(0);
+    const Json row = rows({file, "--opacity", "0:0,16:1", "--tf-domain", "0:16", "--opacity-threshold", "0.5"}).at(0);
     EXPECT_EQ(row.at("kind"), "volume");
     EXPECT_EQ(row.at("orientation"), "RAS");
     EXPECT_EQ(row.at("oblique_degrees"), 0);
@@ -141,17 +161,17 @@ TEST_F(InfoTest, MeshesAreClosedOrNot) {
     writeText(path("turned.obj"), tetrahedron + "f 2 4 3\n");
     writeText(path("many.obj"), tetrahedron + "f 2 3 4\nf 2 3 4\n");
     const Json all = rows({path("open.obj"), path("closed.obj"), path("turned.obj"), path("many.obj")});
-    EXPECT_EQ(all.at(0).at("closed"), 0);
+    EXPECT_EQ(all.at(0).at("closed"), "no");
     EXPECT_EQ(all.at(0).at("open_edges"), 3);
-    EXPECT_EQ(all.at(1).at("closed"), 1);
+    EXPECT_EQ(all.at(1).at("closed"), "yes");
     EXPECT_EQ(all.at(1).at("triangles"), 4);
     EXPECT_EQ(all.at(1).at("vertices"), 4);
     EXPECT_EQ(all.at(1).at("parts"), 1);
     EXPECT_EQ(all.at(1).at("max_z"), 10);
     EXPECT_EQ(all.at(1).at("turned_edges"), 0);
-    EXPECT_EQ(all.at(2).at("closed"), 1);
+    EXPECT_EQ(all.at(2).at("closed"), "yes");
     EXPECT_EQ(all.at(2).at("turned_edges"), 3);
-    EXPECT_EQ(all.at(3).at("closed"), 0);
+    EXPECT_EQ(all.at(3).at("closed"), "no");
     EXPECT_EQ(all.at(3).at("edges_of_many"), 3);
 }
 
@@ -170,9 +190,10 @@ TEST_F(InfoTest, MetresAreSuspected) {
     output({"make", "mesh", "builtin:scalpel:500", path("tool.stl")});
     EXPECT_EQ(rows({path("tool.stl")}).at(0).at("hint"), "");
     EXPECT_THAT(rows({path("tool.stl"), "--mesh-scale", "0.001"}).at(0).at("hint").get<std::string>(),
-                HasSubstr("metres? --mesh-scale 1000"));
-    EXPECT_THAT(rows({path("tool.stl"), "--mesh-scale", "1000"}).at(0).at("hint").get<std::string>(),
-                HasSubstr("micrometres"));
+                HasSubstr("if in metres, use --mesh-scale 1000"));
+    const Ran micrometres = run({"info", path("tool.stl"), "--mesh-scale", "1000"});
+    EXPECT_THAT(micrometres.out, HasSubstr("micrometres"));
+    EXPECT_THAT(micrometres.err, HasSubstr("vertices rounded by up to 0.00"));
 }
 
 TEST_F(InfoTest, TextAndCsv) {
@@ -187,8 +208,16 @@ TEST_F(InfoTest, TextAndCsv) {
     EXPECT_EQ(std::count(lines[2].begin(), lines[2].end(), ','), std::count(lines[0].begin(), lines[0].end(), ','));
 }
 
+TEST_F(InfoTest, PathsByOptions) {
+    EXPECT_EQ(rows({"--volume", "builtin:head:16", "--mesh", "builtin:scalpel:500"}),
+              rows({"builtin:head:16", "builtin:scalpel:500"}));
+    writeText(path("triangle"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    EXPECT_THAT(refused(2, {"info", "--mesh", path("triangle"), "--output", path("triangle")}),
+                HasSubstr("that --mesh reads"));
+}
+
 TEST_F(InfoTest, WhatCannotBeSaid) {
-    EXPECT_THAT(refused(2, {"info"}), HasSubstr("PATH is required"));
+    EXPECT_THAT(refused(2, {"info"}), HasSubstr("PATH: a volume or mesh is needed"));
     EXPECT_THAT(refused(1, {"info", path("no.nii")}), HasSubstr("no.nii"));
     EXPECT_THAT(refused(1, {"info", path("no.stl")}), HasSubstr("no.stl"));
     writeText(path("m.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");

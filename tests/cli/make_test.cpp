@@ -35,7 +35,7 @@ class MakeTest : public CliTest {
 class MakeDetectTest : public CliDeviceTest {
   protected:
     static std::string count(const std::string& volume, const std::string& mesh) {
-        const auto lines = linesOf(output({"detect", "--volume", volume, "--mesh", mesh}));
+        const auto lines = linesOf(output({"count", "--volume", volume, "--mesh", mesh}));
         return fieldsOf(lines.at(1)).at(4);
     }
 };
@@ -102,13 +102,6 @@ TEST_F(MakeTest, PosesAreTheSameEverywhere) {
     ASSERT_EQ(lines.size(), 4U);
     EXPECT_EQ(lines[2], kFirst);
     EXPECT_EQ(lines[3], kSecond);
-}
-
-TEST_F(MakeTest, TheOldNameOfNumberIsKept) {
-    const std::vector<std::string> now = linesOf(makePoses({"--number", "3", "--seed", "5"}));
-    EXPECT_EQ(linesOf(makePoses({"--count", "3", "--seed", "5"})), now);
-    EXPECT_EQ(linesOf(makePoses({"--count=3", "--seed", "5"})), now);
-    EXPECT_THAT(output({"make", "poses", "--help"}), Not(HasSubstr("--count")));
 }
 
 TEST_F(MakeTest, PosesDependOnTheSeedAndNotOnTheCount) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the program says of arguments that are long, not text, or misspelt, and of the time that is left.
-#include "app/output/progress.h"
-#include "app/output/text_for_messages.h"
+#include "cli/output/progress.h"
+#include "cli/output/text_for_messages.h"
 #include "cli_fixture.h"
 #include "core/base/escaped.h"
 
@@ -15,17 +15,18 @@ using testing::Not;
 class MessagesTest : public CliTest {};
 
 TEST_F(MessagesTest, MisspeltNamesAreGuessed) {
-    EXPECT_THAT(refused(2, {"detekt"}), HasSubstr("unknown command 'detekt', did you mean detect?"));
+    EXPECT_THAT(refused(2, {"tuch"}), HasSubstr("unknown command 'tuch', did you mean touch?"));
     EXPECT_THAT(refused(2, {"inof"}), HasSubstr("did you mean info?"));
     EXPECT_THAT(refused(2, {"make", "pose"}), HasSubstr("did you mean poses?"));
     EXPECT_THAT(refused(2, {"xyz"}), Not(HasSubstr("did you mean")));
-    const Arguments pair{"detect", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:500"};
+    const Arguments pair{"count", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:500"};
     const auto guess = [&](const char* option) {
         Arguments all = pair;
         all.insert(all.end(), {option, "1"});
         return refused(2, all);
     };
-    EXPECT_THAT(guess("--treshold"), HasSubstr("did you mean --threshold?"));
+    EXPECT_THAT(guess("--threshold"), HasSubstr("did you mean --opacity-threshold?"));
+    EXPECT_THAT(guess("--methd"), HasSubstr("did you mean --method?"));
     EXPECT_THAT(guess("--label"), HasSubstr("did you mean --labels?"));
     EXPECT_THAT(guess("--pose"), HasSubstr("did you mean --poses?"));
     EXPECT_THAT(guess("--something-else"), Not(HasSubstr("did you mean")));
@@ -36,11 +37,11 @@ TEST_F(MessagesTest, LongAndBrokenArgumentsAreNotEchoed) {
     const std::string bytes = "\xff\xfe\x1b[31mred\x07";
     const std::string big(100000, 'x');
     for (const Arguments& arguments :
-         {Arguments{bytes}, Arguments{"detect", bytes}, Arguments{"detect", "--count", bytes},
-          Arguments{"detect", "--volume", bytes, "--mesh", "builtin:scalpel:500"}, Arguments{"info", bytes},
-          Arguments{"info", bytes + ".stl"}, Arguments{"detect", "--size", bytes},
-          Arguments{"detect", "--opacity", bytes},
-          Arguments{"detect", "--volume", "builtin:" + bytes, "--mesh", "builtin:scalpel:500"}}) {
+         {Arguments{bytes}, Arguments{"count", bytes}, Arguments{"count", "--method", bytes},
+          Arguments{"count", "--volume", bytes, "--mesh", "builtin:scalpel:500"}, Arguments{"info", bytes},
+          Arguments{"info", bytes + ".stl"}, Arguments{"count", "--size", bytes},
+          Arguments{"count", "--opacity", bytes},
+          Arguments{"count", "--volume", "builtin:" + bytes, "--mesh", "builtin:scalpel:500"}}) {
         const Ran ran = run(arguments);
         EXPECT_NE(ran.status, 0);
         for (const char c : ran.err) {
@@ -48,8 +49,8 @@ TEST_F(MessagesTest, LongAndBrokenArgumentsAreNotEchoed) {
         }
     }
     for (const Arguments& arguments :
-         {Arguments{big}, Arguments{"detect", "--count", big}, Arguments{"detect", "--" + big}, Arguments{"info", big},
-          Arguments{"detect", "--size", big}, Arguments{"detect", "--volume", "builtin:head:18", "--mesh", big}}) {
+         {Arguments{big}, Arguments{"count", "--method", big}, Arguments{"count", "--" + big}, Arguments{"info", big},
+          Arguments{"count", "--size", big}, Arguments{"count", "--volume", "builtin:head:18", "--mesh", big}}) {
         const Ran ran = run(arguments);
         EXPECT_NE(ran.status, 0);
         EXPECT_LT(ran.err.size(), 5000U);
@@ -86,8 +87,8 @@ TEST(TextForMessages, ShortensInTheMiddleAndBetweenCharacters) {
 }
 
 TEST(TextForMessages, NearestNames) {
-    const std::vector<std::string> names{"detect", "devices", "make"};
-    EXPECT_EQ(app::nearestName("detcet", names), "detect");
+    const std::vector<std::string> names{"count", "devices", "make"};
+    EXPECT_EQ(app::nearestName("cuont", names), "count");
     EXPECT_EQ(app::nearestName("devics", names), "devices");
     EXPECT_EQ(app::nearestName("mkae", names), "make");
     EXPECT_EQ(app::nearestName("bake", names), "make");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// voxtact motion, and detect --pose-tolerance.
+// voxtact motion, and detect --uncertainty.
 #include "cli_fixture.h"
 
 #include <cmath>
@@ -39,8 +39,8 @@ class MotionTest : public CliTest {
 TEST_F(MotionTest, HasARowForEachSegment) {
     const auto found = rows({});
     ASSERT_EQ(found.size(), 4U);
-    EXPECT_EQ(found[0], (std::vector<std::string>{"segment", "mesh", "volume", "hit", "free_until", "touch_at", "x",
-                                                  "y", "z", "triangle", "label"}));
+    EXPECT_EQ(found[0], (std::vector<std::string>{"pose", "mesh", "volume", "touch", "toi_lower", "toi_upper", "x", "y",
+                                                  "z", "triangle", "label"}));
     EXPECT_EQ(found[1],
               (std::vector<std::string>{"0", "builtin:scalpel:300", "builtin:head:30", "0", "1", "", "", "", "", ""}));
     EXPECT_EQ(found[2][3], "1");
@@ -55,7 +55,7 @@ TEST_F(MotionTest, HasARowForEachSegment) {
     EXPECT_EQ(found[3][4], "0");
     EXPECT_EQ(found[3][5], "0");
     // A coarser question has a coarser answer, around the same place.
-    const auto coarse = rows({"--resolution-mm", "2", "--threads", "1"});
+    const auto coarse = rows({"--resolution", "2", "--threads", "1"});
     EXPECT_LE(std::stod(coarse[2][4]), touchAt);
     EXPECT_GE(std::stod(coarse[2][5]), freeUntil);
     EXPECT_LE(std::stod(coarse[2][5]) - std::stod(coarse[2][4]), 2.0 / 40 + 1e-12);
@@ -80,12 +80,9 @@ TEST_F(MotionTest, HalfTurnsAreNoted) {
         return withoutProgress(ran.err);
     };
     EXPECT_EQ(notes(start + turned(179.999) + start), "");
-    EXPECT_EQ(
-        notes(start + start + turned(180.00005) + start),
-        "voxtact: note: segments that turn by 180 degrees to within 0.0001: 2, the first of them 1; the poses' last "
-        "digits decide which way round they go, and a pose in between would say it\n");
-    EXPECT_THAT(notes(start + start + turned(180), {"--resume", path("run"), "--chunk", "1"}),
-                HasSubstr("to within 0.0001: 1, the first of them 1;"));
+    EXPECT_EQ(notes(start + start + turned(180.00005) + start),
+              "voxtact: note: segments that turn by 180 degrees to within 0.0001: 2, the first of them 1; rounding "
+              "decides the sense of rotation; add a pose in between\n");
     // Segments, however many meshes and volumes there are rows for.
     EXPECT_THAT(notes(start + turned(180), {"--mesh", "builtin:scalpel:500", "--volume", "builtin:sphere:16"}),
                 HasSubstr("to within 0.0001: 1, the first of them 0;"));
@@ -117,7 +114,7 @@ TEST_F(MotionTest, WritesWhatElseIsAskedFor) {
     EXPECT_THAT(labelled[4][0], HasSubstr("# segments=3 wall_ms="));
     Arguments json = motion({});
     json[8] = "json";
-    EXPECT_THAT(output(json), HasSubstr(R"("hit":0,"free_until":1.0,"touch_at":null)"));
+    EXPECT_THAT(output(json), HasSubstr(R"("touch":"no","toi_lower":1.0,"toi_upper":null)"));
     Arguments text = motion({"--output", path("out.txt")});
     text[8] = "text";
     output(text);
@@ -138,32 +135,13 @@ TEST_F(MotionTest, RefusesWhatItCannotUse) {
                                                                "rigid"));
     EXPECT_THAT(refusedPoses(1, path("none.txt")), HasSubstr("none.txt"));
     EXPECT_THAT(refused(2, motion({"--interpolation", "linear"})), HasSubstr("screw, slerp"));
-    EXPECT_THAT(refused(2, motion({"--resolution-mm", "0"})), HasSubstr("--resolution-mm"));
-    EXPECT_THAT(refused(2, motion({"--label-names", "n.txt"})), HasSubstr("--labels is not given"));
+    EXPECT_THAT(refused(2, motion({"--resolution", "0"})), HasSubstr("--resolution"));
+    EXPECT_THAT(refused(2, motion({"--label-names", "n.txt"})),
+                HasSubstr("--label-names: it needs a label map; add --labels"));
     EXPECT_THAT(refused(2, motion({"--output", path("path.txt")})), HasSubstr("--output"));
     EXPECT_THAT(refused(2, {"motion", "--volume", "builtin:head:30", "--mesh", "builtin:scalpel"}),
                 HasSubstr("--poses is required"));
     EXPECT_EQ(filesInFolder(), 3U);
-}
-
-/// The same segments, and nothing against what the host says of them; what is wrong with it stands on one line.
-TEST_F(MotionTest, ByADevice) {
-    const auto host = rows({"--interpolation", "slerp"});
-    const auto found = rows({"--interpolation", "slerp", "--count", "compute"});
-    ASSERT_EQ(found.size(), host.size());
-    EXPECT_EQ(found[0], host[0]);
-    for (std::size_t i = 1; i < found.size(); ++i) {
-        SCOPED_TRACE("row " + std::to_string(i));
-        EXPECT_EQ(found[i][3], host[i][3]);
-        for (const std::size_t end : {4U, 5U}) { // voxels of several mm
-            EXPECT_NEAR(std::stod(found[i][end].empty() ? "1" : found[i][end]),
-                        std::stod(host[i][end].empty() ? "1" : host[i][end]), 0.01);
-        }
-    }
-    EXPECT_THAT(refused(2, motion({"--count", "compute", "--threads", "2"})), HasSubstr("--threads is of the host"));
-    EXPECT_THAT(refused(2, motion({"--device", "0"})), HasSubstr("unless --count compute says so"));
-    EXPECT_THAT(refused(2, motion({"--validate"})), HasSubstr("--validate: motions are checked by the host"));
-    EXPECT_THAT(refused(2, motion({"--count", "query"})), HasSubstr("cpu, compute"));
 }
 
 /// Far behind the first that are checked together; before any row.
@@ -173,17 +151,16 @@ TEST_F(MotionTest, RefusedPosesHaveTheirNumbers) {
         text += i == 350 ? "2 0 0 0  0 2 0 0  0 0 2 900  0 0 0 1\n" : "1 0 0 0  0 1 0 0  0 0 1 900  0 0 0 1\n";
     }
     writeText(path("bad.txt"), text);
-    for (const Arguments& more : {Arguments{}, Arguments{"--resume", path("run"), "--chunk", "30"}}) {
-        Arguments all{"motion",  "--volume",      "builtin:head:30", "--mesh", "builtin:scalpel:300",
-                      "--poses", path("bad.txt"), "--format",        "csv"};
-        all.insert(all.end(), more.begin(), more.end());
+    for (const char* shard : {"1/1", "2/2"}) {
+        const Arguments all{"motion",  "--volume",      "builtin:head:30", "--mesh", "builtin:scalpel:300",
+                            "--poses", path("bad.txt"), "--shard",         shard};
         EXPECT_THAT(refused(2, all), HasSubstr("motion: --poses: poses 349 and 350: the motion"));
     }
 }
 
 TEST_F(MotionTest, APoseMayBeOff) {
     const auto hits = [&](const Arguments& more) {
-        Arguments all{"detect",  "--volume",       "builtin:head:30", "--mesh", "builtin:scalpel:300",
+        Arguments all{"touch",   "--volume",       "builtin:head:30", "--mesh", "builtin:scalpel:300",
                       "--poses", path("path.txt"), "--format",        "csv"};
         all.insert(all.end(), more.begin(), more.end());
         std::string found;
@@ -193,21 +170,20 @@ TEST_F(MotionTest, APoseMayBeOff) {
         }
         return found;
     };
-    EXPECT_EQ(hits({"--pose-tolerance", "0,0"}), "0010");
-    EXPECT_EQ(hits({"--pose-tolerance", "10,2"}), "0010");
-    EXPECT_EQ(hits({"--pose-tolerance", "200,0"}), "1111");
-    EXPECT_EQ(hits({"--pose-tolerance", "0,180"}), "1111"); // the handle is 150 mm long
+    EXPECT_EQ(hits({"--uncertainty", "0,0"}), "0010");
+    EXPECT_EQ(hits({"--uncertainty", "10,2"}), "0010");
+    EXPECT_EQ(hits({"--uncertainty", "200,0"}), "1111");
+    EXPECT_EQ(hits({"--uncertainty", "0,180"}), "1111"); // the handle is 150 mm long
     const auto line = [&](const Arguments& more) {
-        Arguments all{"detect", "--volume", "builtin:head:30", "--mesh", "builtin:scalpel:300"};
+        Arguments all{"touch", "--volume", "builtin:head:30", "--mesh", "builtin:scalpel:300"};
         all.insert(all.end(), more.begin(), more.end());
         return refused(2, all);
     };
     for (const char* wrong : {"1", "1,", ",1", "-1,0", "1,181", "1,2,3", "a,b"}) {
-        EXPECT_THAT(line({"--pose-tolerance", wrong}), HasSubstr("is not two numbers MM,DEG")) << wrong;
+        EXPECT_THAT(line({"--uncertainty", wrong}), HasSubstr("is not MM,DEG")) << wrong;
     }
-    EXPECT_THAT(line({"--pose-tolerance", "1,2", "--margin", "1"}), HasSubstr("--margin"));
-    EXPECT_THAT(line({"--pose-tolerance", "1,2", "--contacts", "c.csv"}), HasSubstr("--pose-tolerance is answered"));
-    EXPECT_THAT(line({"--pose-tolerance", "1,2", "--count", "atomic"}), HasSubstr("or give --count cpu or compute"));
+    EXPECT_THAT(line({"--uncertainty", "1,2", "--margin", "1"}), HasSubstr("--margin"));
+    EXPECT_THAT(line({"--uncertainty", "1,2", "--on", "device"}), HasSubstr("--uncertainty is answered by the host"));
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What is said of transfer functions under which nothing, or less than was meant, is opaque.
-#include "app/options/opacity_notes.h"
+#include "cli/options/opacity_notes.h"
 #include "cli_fixture.h"
 
 namespace voxtact::test {
@@ -14,7 +14,7 @@ using testing::Not;
 
 std::vector<std::string> notes(const std::vector<ControlPoint>& points, const ValueRange& domain,
                                const ValueRange& data) {
-    return app::opacityNotes({points, domain, kDefaultTableSize}, data, kDefaultThreshold, "ct.nii");
+    return app::opacityNotes({points, domain, kDefaultTableSize}, data, kDefaultThreshold, "ct.nii", true);
 }
 
 const std::vector<ControlPoint> kVessels{{150, 0}, {200, 1}, {250, 0}};
@@ -30,16 +30,17 @@ TEST(OpacityNotes, PointsBelowTheThreshold) {
                 ElementsAre("no opacity of the transfer function reaches the threshold 0.1: nothing touches"));
 }
 
-TEST(OpacityNotes, BetweenTwoEntries) {
+TEST(OpacityNotes, ACoarseTable) {
     const std::vector<std::string> found = notes(kVessels, {-1000, 32767}, {-1000, 32767});
     ASSERT_EQ(found.size(), 1U);
-    EXPECT_THAT(found[0], AllOf(HasSubstr("ct.nii: the entries of the table, 131.9"),
-                                HasSubstr("pass over what the transfer function makes opaque at 155 to 245:"),
+    EXPECT_THAT(found[0], AllOf(HasSubstr("ct.nii: the table of the transfer function passes over opaque values"),
                                 HasSubstr("--tf-size and --tf-domain")));
-    // The same where more is opaque, which is seen.
-    std::vector<ControlPoint> more = kVessels;
-    more.insert(more.end(), {{1000, 0}, {2000, 1}});
-    EXPECT_EQ(notes(more, {-1000, 32767}, {-1000, 32767}), found);
+    EXPECT_THAT(app::opacityNotes({kVessels, {-1000, 32767}}, {-1000, 32767}, kDefaultThreshold, "ct.nii", false),
+                IsEmpty())
+        << "what is certified does not look at the table";
+    EXPECT_THAT(notes({{0, 0}, {1, 1}}, {-1000, 32767}, {-100, 100}),
+                ElementsAre(HasSubstr("moves an end of the opaque values by")));
+    EXPECT_THAT(notes({{0, 0}, {1, 1}}, {-1000, 32767}, {-10000, 10000}), IsEmpty()) << "by less than a hundredth";
 }
 
 TEST(OpacityNotes, NoValueOfTheVolume) {
@@ -69,13 +70,18 @@ TEST_F(OpacityNotesTest, AreSaidByWhatAnswers) {
     const auto isSaid =
         HasSubstr("builtin:head:16: none of its values, 0 to 243, is opaque under the transfer function");
     const Arguments hounsfield{"--opacity", "300:0,400:1"};
-    for (Arguments command : {Arguments{"detect"}, Arguments{"detect", "--margin", "5"}, Arguments{"motion"}}) {
+    for (Arguments command : {Arguments{"count"}, Arguments{"touch", "--margin", "5"}, Arguments{"motion"}}) {
         EXPECT_THAT(said(command), Not(isSaid));
         command.insert(command.end(), hounsfield.begin(), hounsfield.end());
         EXPECT_THAT(said(command), isSaid) << command.front();
     }
-    EXPECT_THAT(said({"detect", "--opacity", "100:0,110:1,120:0", "--tf-domain", "0:25500"}),
-                HasSubstr("makes opaque at 101 to 119"));
+    const Arguments coarse{"count", "--opacity", "100:0,110:1,120:0", "--tf-domain", "0:25500", "--projection"};
+    Arguments view = coarse;
+    view.emplace_back("dominant-axis");
+    EXPECT_THAT(said(view), HasSubstr("passes over opaque values"));
+    Arguments certified = coarse;
+    certified.emplace_back("certified");
+    EXPECT_THAT(said(certified), Not(HasSubstr("passes over")));
     const Ran plan = run({"plan", "--volume", "builtin:head:16", "--target", "20,0,30", "--entries", "42",
                           "--avoid-opacity", "300:0,400:1"});
     EXPECT_EQ(plan.status, 0);
@@ -84,7 +90,7 @@ TEST_F(OpacityNotesTest, AreSaidByWhatAnswers) {
 
 TEST_F(OpacityNotesTest, AreSaidOnceAndWithWhatTheyExplain) {
     // Two volumes, one transfer function.
-    const Ran two = run({"detect", "--volume", "builtin:head:16", "--volume", "builtin:sphere:16", "--mesh",
+    const Ran two = run({"count", "--volume", "builtin:head:16", "--volume", "builtin:sphere:16", "--mesh",
                          "builtin:scalpel:500", "--opacity", "0:0"});
     EXPECT_EQ(two.err,
               "voxtact: note: no opacity of the transfer function reaches the threshold 0.1: nothing touches\n");

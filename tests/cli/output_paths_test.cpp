@@ -24,8 +24,8 @@ class OutputPathsTest : public CliTest {
     }
 
     [[nodiscard]] Arguments detect(const Arguments& more) const {
-        Arguments all{"detect",  "--volume",        path("v.nii"),         "--mesh",           path("m.obj"),
-                      "--poses", path("poses.txt"), "--transfer-function", path("opacity.tf"), "--count",
+        Arguments all{"count",   "--volume",        path("v.nii"),         "--mesh",           path("m.obj"),
+                      "--poses", path("poses.txt"), "--transfer-function", path("opacity.tf"), "--method",
                       "cpu"};
         all.insert(all.end(), more.begin(), more.end());
         return all;
@@ -59,11 +59,13 @@ TEST_F(OutputPathsTest, InputsOfDetect) {
     expectRefused(detect({"--contacts", path("link2.csv")}), "--mesh");
     expectRefused(detect({"--projection", "view", "--camera", path("camera.txt"), "--output", path("camera.txt")}),
                   "--camera");
-    expectRefused(detect({"--labels", path("labels.nii"), "--output", path("labels.nii")}), "--labels");
-    expectRefused(detect({"--labels", path("labels.nii"), "--output", path("labels.nii.txt")}), "--label-names");
+    expectRefused(detect({"--label-counts", "--labels", path("labels.nii"), "--output", path("labels.nii")}),
+                  "--labels");
+    expectRefused(detect({"--label-counts", "--labels", path("labels.nii"), "--output", path("labels.nii.txt")}),
+                  "--label-names");
     // A file of another name in the same folder is none of them.
     const RunOptions transparent{.note = "none of its values, 0, is opaque"};
-    output(detect({"--labels", path("labels.nii"), "--output", path("new.csv")}), transparent);
+    output(detect({"--label-counts", "--labels", path("labels.nii"), "--output", path("new.csv")}), transparent);
     output(detect({"--output", path("new.csv")}), transparent);
 }
 
@@ -93,7 +95,7 @@ TEST_F(OutputPathsTest, FilesOfAFolderOfSlices) {
     fs::create_directory_symlink(path("slices"), path("also"));
     for (const char* file : {"slices/IM0001.dcm", "also/IM0001.dcm", "slices/new.csv", "also/../hard.csv"}) {
         expectRefused(
-            {"detect", "--volume", path("slices"), "--mesh", path("m.obj"), "--count", "cpu", "--output", path(file)},
+            {"count", "--volume", path("slices"), "--mesh", path("m.obj"), "--method", "cpu", "--output", path(file)},
             "--volume");
     }
 }
@@ -101,25 +103,22 @@ TEST_F(OutputPathsTest, FilesOfAFolderOfSlices) {
 TEST_F(OutputPathsTest, FilesThatAHeaderNames) {
     writeText(path("v.mhd"), "ObjectType = Image\nElementDataFile = my voxels.raw\n");
     writeText(path("my voxels.raw"), "voxels");
-    expectRefused({"detect", "--volume", path("v.mhd"), "--mesh", path("m.obj"), "--output", path("my voxels.raw")},
+    expectRefused({"count", "--volume", path("v.mhd"), "--mesh", path("m.obj"), "--output", path("my voxels.raw")},
                   "--volume");
     writeText(path("v.nhdr"), "NRRD0004\ndata file: v.raw.gz\n");
     writeText(path("v.raw.gz"), "voxels");
-    expectRefused({"detect", "--volume", path("v.nhdr"), "--mesh", path("m.obj"), "--output", path("v.raw.gz")},
+    expectRefused({"count", "--volume", path("v.nhdr"), "--mesh", path("m.obj"), "--output", path("v.raw.gz")},
                   "--volume");
     writeText(path("v.hdr"), "header");
     writeText(path("v.img"), "voxels");
     writeText(path("U.HDR"), "header");
     writeText(path("U.IMG"), "voxels");
-    expectRefused({"detect", "--volume", path("U.HDR"), "--mesh", path("m.obj"), "--output", path("U.IMG")},
-                  "--volume");
-    expectRefused({"detect", "--volume", path("v.hdr"), "--mesh", path("m.obj"), "--output", path("v.img")},
-                  "--volume");
-    expectRefused({"detect", "--volume", path("v.img"), "--mesh", path("m.obj"), "--output", path("v.hdr")},
-                  "--volume");
+    expectRefused({"count", "--volume", path("U.HDR"), "--mesh", path("m.obj"), "--output", path("U.IMG")}, "--volume");
+    expectRefused({"count", "--volume", path("v.hdr"), "--mesh", path("m.obj"), "--output", path("v.img")}, "--volume");
+    expectRefused({"count", "--volume", path("v.img"), "--mesh", path("m.obj"), "--output", path("v.hdr")}, "--volume");
     writeText(path("m.gltf"), R"({"buffers": [{"uri": "my%20mesh.bin", "byteLength": 4}]})");
     writeText(path("my mesh.bin"), "mesh");
-    expectRefused({"detect", "--volume", path("v.nii"), "--mesh", path("m.gltf"), "--output", path("my mesh.bin")},
+    expectRefused({"count", "--volume", path("v.nii"), "--mesh", path("m.gltf"), "--output", path("my mesh.bin")},
                   "--mesh");
 }
 
@@ -130,9 +129,8 @@ TEST_F(OutputPathsTest, WhatCannotBeLookedAt) {
     EXPECT_THAT(refused(1, detect({"--output", loop})), AllOf(HasSubstr("loop.csv"), HasSubstr("symbolic links")));
     writeText(path("m.gltf"), R"({"buffers": [{"uri": "loop.csv", "byteLength": 4}]})");
     writeText(path("old.csv"), "as it was");
-    EXPECT_THAT(
-        refused(1, {"detect", "--volume", path("v.nii"), "--mesh", path("m.gltf"), "--output", path("old.csv")}),
-        AllOf(HasSubstr("cannot look at"), HasSubstr("loop.csv"), HasSubstr("symbolic links")));
+    EXPECT_THAT(refused(1, {"count", "--volume", path("v.nii"), "--mesh", path("m.gltf"), "--output", path("old.csv")}),
+                AllOf(HasSubstr("cannot look at"), HasSubstr("loop.csv"), HasSubstr("symbolic links")));
     EXPECT_EQ(readText(path("old.csv")), "as it was");
 }
 

@@ -46,7 +46,8 @@ TEST_F(OutputTest, FormatsAgree) {
         words[3] = fields[3];
         EXPECT_EQ(words, fields);
         for (std::size_t column = 0; column < columns.size(); ++column) {
-            EXPECT_EQ(jsonText(json["rows"][row].at(columns[column])), fields[column]) << columns[column];
+            const std::string expected = column == 3 ? (fields[3] == "1" ? "yes" : "no") : fields[column];
+            EXPECT_EQ(jsonText(json["rows"][row].at(columns[column])), expected) << columns[column];
         }
     }
 }
@@ -64,14 +65,14 @@ TEST_F(OutputTest, JsonSaysWhatItCameFrom) {
 }
 
 TEST_F(OutputTest, JsonHasStats) {
-    const Json json = Json::parse(output(detect({"--format", "json", "--stats", "--timing", "--count", "compute"})));
+    const Json json = Json::parse(output(detect({"--format", "json", "--stats", "--timing", "--method", "compute"})));
     EXPECT_GE(json.at("stats").at("clusters"), 1);
     EXPECT_EQ(json.at("stats").size(), 24U);
     EXPECT_EQ(json.at("timing").at("pairs"), 1);
 }
 
 TEST_F(OutputTest, TextIsAligned) {
-    const auto lines = linesOf(output({"detect", "--volume", "builtin:head:30", "--volume", "builtin:sphere:32",
+    const auto lines = linesOf(output({"count", "--volume", "builtin:head:30", "--volume", "builtin:sphere:32",
                                        "--mesh", "builtin:scalpel:500", "--poses", poses(12), "--format", "text"}));
     const std::size_t at = lines.at(0).find("method");
     for (const std::string& line : lines) {
@@ -83,10 +84,9 @@ TEST_F(OutputTest, TextIsAligned) {
 TEST_F(OutputTest, NamesWithCommasAreQuoted) {
     const std::string name = path("a,\"b\".stl");
     output({"make", "mesh", "builtin:scalpel:500", name});
-    const std::string text = output({"detect", "--volume", "builtin:head:30", "--mesh", name});
+    const std::string text = output({"count", "--volume", "builtin:head:30", "--mesh", name});
     EXPECT_THAT(text, HasSubstr(",\"" + path("a,\"\"b\"\".stl") + "\","));
-    const Json json =
-        Json::parse(output({"detect", "--volume", "builtin:head:30", "--mesh", name, "--format", "json"}));
+    const Json json = Json::parse(output({"count", "--volume", "builtin:head:30", "--mesh", name, "--format", "json"}));
     EXPECT_EQ(json["rows"][0]["mesh"], name);
 }
 
@@ -94,7 +94,7 @@ TEST_F(OutputTest, TextHasNoControlCharacters) {
     const std::string name = path("a\x1b[31m\xff.stl");
     output({"make", "mesh", "builtin:scalpel:500", name});
     const auto as = [&](const char* format) {
-        return output({"detect", "--volume", "builtin:head:30", "--mesh", name, "--count", "cpu", "--format", format});
+        return output({"count", "--volume", "builtin:head:30", "--mesh", name, "--method", "cpu", "--format", format});
     };
     EXPECT_THAT(as("text"), HasSubstr("a\\x1b[31m\\xff.stl "));
     EXPECT_THAT(as("csv"), HasSubstr(name + ","));
@@ -124,7 +124,7 @@ TEST_F(OutputTest, FolderThatDoesNotExist) {
 TEST_F(OutputTest, NameThatIsTooLong) {
     writeText(path("no.nii"), "no volume");
     const std::string file = path(std::string(300, 'a') + ".csv");
-    EXPECT_THAT(refused(1, {"detect", "--volume", path("no.nii"), "--mesh", "builtin:scalpel:500", "--output", file}),
+    EXPECT_THAT(refused(1, {"count", "--volume", path("no.nii"), "--mesh", "builtin:scalpel:500", "--output", file}),
                 AllOf(HasSubstr("cannot write '" + file), HasSubstr("too long")));
 }
 
@@ -132,15 +132,35 @@ TEST_F(OutputTest, NothingIsWrittenOnFailure) {
     writeText(path("out.csv"), "as it was");
     refused(2, detect({"--output", path("out.csv"), "--size", "99999x99999"}));
     refused(2, detect({"--output", path("out.csv"), "--device", "4711"}));
-    refused(1, {"detect", "--volume", path("no.nii"), "--mesh", "builtin:scalpel:500", "--output", path("out.csv")});
+    refused(1, {"count", "--volume", path("no.nii"), "--mesh", "builtin:scalpel:500", "--output", path("out.csv")});
     EXPECT_EQ(readText(path("out.csv")), "as it was");
     EXPECT_EQ(filesInFolder(), 1U);
+}
+
+TEST_F(OutputTest, WhatExistsIsKept) {
+    writeText(path("out.csv"), "as it was");
+    std::filesystem::create_symlink(path("out.csv"), path("link.csv"));
+    const RunOptions keep{.keepExisting = true};
+    const std::vector<Arguments> all{detect({"--output", path("out.csv")}),
+                                     detect({"--output", path("link.csv")}),
+                                     detect({"--contacts", path("out.csv")}),
+                                     {"info", "builtin:head:16", "--output", path("out.csv")},
+                                     {"make", "mesh", "builtin:scalpel:500", path("out.csv")}};
+    for (const Arguments& arguments : all) {
+        EXPECT_THAT(refused(2, arguments, keep), AllOf(HasSubstr("exists"), HasSubstr("--force")));
+    }
+    EXPECT_EQ(readText(path("out.csv")), "as it was");
+    output(detect({"--output", path("out.csv"), "--force"}), keep);
+    EXPECT_THAT(readText(path("out.csv")), HasSubstr("pose,mesh"));
+    output(detect({"--output", path("new.csv")}), keep);
 }
 
 TEST_F(OutputTest, StandardOutputThatCannotBeWritten) {
     for (const Arguments& arguments : {detect(), Arguments{"devices"}, Arguments{"--version"}, Arguments{"--help"}}) {
         EXPECT_THAT(refused(1, arguments, {.output = "/dev/full"}), HasSubstr("standard output"));
-        EXPECT_THAT(refused(1, arguments, {.closedPipe = true}), HasSubstr("standard output"));
+        const Ran ended = run(arguments, {.closedPipe = true}); // as by `| head`
+        EXPECT_EQ(ended.status, 0);
+        EXPECT_EQ(withoutProgress(ended.err), "");
     }
     EXPECT_THAT(refused(1, detect({"--output", "/dev/full"})), HasSubstr("/dev/full"));
     EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));

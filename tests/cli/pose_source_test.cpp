@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Files of poses that are read more than once: what is there the second time is what was counted the first.
-#include "app/detect/pose_source.h"
+#include "cli/pairs/pose_source.h"
 #include "cli_fixture.h"
 #include "support/take.h"
 

@@ -17,7 +17,7 @@ using testing::StartsWith;
 class StreamTest : public CliTest {
   protected:
     static Arguments detect(const Arguments& more = {}) {
-        Arguments all{"detect", "--volume", "builtin:head:30", "--mesh", "builtin:scalpel:500", "--count", "cpu"};
+        Arguments all{"count", "--volume", "builtin:head:30", "--mesh", "builtin:scalpel:500", "--method", "cpu"};
         all.insert(all.end(), more.begin(), more.end());
         return all;
     }
@@ -62,8 +62,7 @@ TEST_F(StreamTest, InterruptedRowsAreWhole) {
         EXPECT_EQ(linesOf(ran.out), whole);
         EXPECT_TRUE(ran.out.ends_with("\n"));
         EXPECT_EQ(linesOf(ran.err).size(), 1U);
-        EXPECT_THAT(ran.err,
-                    AllOf(StartsWith("voxtact detect: interrupted by SIG"), HasSubstr("16 pairs are written")));
+        EXPECT_THAT(ran.err, AllOf(StartsWith("voxtact count: interrupted by SIG"), HasSubstr("16 pairs are written")));
     }
 }
 
@@ -162,7 +161,7 @@ TEST_F(StreamTest, WhatIsWrongInTheMiddle) {
     EXPECT_EQ(ran.status, 1);
     EXPECT_THAT(ran.err, AllOf(HasSubstr("standard input line 41"), HasSubstr("3 numbers")));
     EXPECT_EQ(linesOf(ran.out).size(), 41U) << "the poses before it are answered";
-    // A file is looked at first.
+    // A file is examined first.
     writeText(path("poses.txt"), good + "1 2 3\n");
     EXPECT_THAT(refused(1, detect({"--poses", path("poses.txt")})), HasSubstr("line 41"));
 }

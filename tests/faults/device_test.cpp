@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The program's own instance and device: every call that makes them fails once.
-#include "device/vulkan_device.h"
 #include "gpu/gpu_fixture.h"
 #include "sweep.h"
+#include "vulkan/own/vulkan_device.h"
 
 namespace voxtact::test {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "fault_table.h"
-#include "gpu/device_functions.h"
+#include "vulkan/device_functions.h"
 
 #include <algorithm>
 #include <cstring>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "fault_table.h"
-#include "gpu/device_functions.h"
 #include "voxtact/context.h"
+#include "vulkan/device_functions.h"
 
 #include <ostream>
 #include <stdexcept>

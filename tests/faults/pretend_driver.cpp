@@ -27,6 +27,7 @@ const VkPhysicalDeviceFeatures2* features() {
         supported.features.occlusionQueryPrecise = VK_TRUE;
         supported.features.fragmentStoresAndAtomics = VK_TRUE;
         supported.features.geometryShader = VK_TRUE;
+        supported.features.shaderFloat64 = VK_TRUE;
         return std::make_unique<FeatureRequest>(&supported);
     }();
     return &all->features2;
@@ -176,6 +177,8 @@ void VKAPI_CALL GetPhysicalDeviceProperties2(VkPhysicalDevice, VkPhysicalDeviceP
             auto* floats = reinterpret_cast<VkPhysicalDeviceFloatControlsProperties*>(next);
             floats->shaderSignedZeroInfNanPreserveFloat32 = VK_TRUE;
             floats->shaderRoundingModeRTEFloat32 = VK_TRUE;
+            floats->shaderSignedZeroInfNanPreserveFloat64 = VK_TRUE;
+            floats->shaderRoundingModeRTEFloat64 = VK_TRUE;
         } else if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES) {
             auto* subgroup = reinterpret_cast<VkPhysicalDeviceSubgroupProperties*>(next);
             subgroup->supportedStages = VK_SHADER_STAGE_ALL;

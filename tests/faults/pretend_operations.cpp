@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What stands in for operations.comp, whose results the library compares with the host's.
-#include "operations.h"
+#include "exact/operations.h"
+#include "exact/shared.h"
 #include "pretend_state.h"
-#include "shared.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The objects of PretendDriver but for its command buffers.
-#include "gpu/float_controls.h"
+#include "exact/shared.h"
 #include "pretend_state.h"
-#include "shared.h"
+#include "vulkan/float_controls.h"
 
 #include "voxtact_shaders/bricks_comp.h"
 #include "voxtact_shaders/certified_tally_comp.h"
 #include "voxtact_shaders/edit_comp.h"
-#include "voxtact_shaders/operations_comp.h"
+#include "voxtact_shaders/operations_doubles_comp.h"
 
 #include <algorithm>
 #include <cstring>
@@ -55,7 +55,7 @@ std::uint64_t tallyHash() {
     return hash;
 }
 std::uint64_t operationsHash() {
-    static const std::uint64_t hash = moduleHash(spirv::operations_comp);
+    static const std::uint64_t hash = moduleHash(spirv::operations_doubles_comp);
     return hash;
 }
 

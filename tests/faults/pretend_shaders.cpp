@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What stands in for shaders: a hash of what they would read goes where they would write.
-#include "contact.h"
-#include "operations.h"
+#include "exact/contact.h"
+#include "exact/operations.h"
+#include "exact/shared.h"
 #include "pretend_state.h"
-#include "shared.h"
 #include "voxtact/device_results.h"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "gpu/device_functions.h"
 #include "ledger.h"
 #include "pretend_driver.h"
+#include "vulkan/device_functions.h"
 
 #include <array>
 #include <cstddef>
@@ -56,7 +56,7 @@ struct PretendShaderModule {
     bool bricks = false;     ///< the pass that fills the bricks of a volume
     bool operations = false; ///< the arithmetic self-test
     bool edits = false;      ///< the pass that edits voxels
-    bool tally = false;      ///< the pass that counts what others of the projection conservative did
+    bool tally = false;      ///< the pass that counts what others of the projection certified did
 };
 
 struct PretendPipeline {
@@ -67,7 +67,7 @@ struct PretendPipeline {
     bool operations = false;   ///< the same
     bool edits = false;        ///< the same
     bool tally = false;        ///< the same
-    bool certified = false;    ///< the projection conservative
+    bool certified = false;    ///< the projection certified
     bool lists = false;        ///< a list of survivors
     std::uint32_t outputs = 0; ///< OUTPUT_*
     std::uint32_t views = 1;

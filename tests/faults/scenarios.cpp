@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "scenarios.h"
-#include "gpu/context_impl.h"
+#include "vulkan/context_impl.h"
 
 #include <sstream>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Every counting method, projection and output, blocking; the lists of survivors, and the queries of triangles; the
-// self-test and the measuring.
-#include "detect/self_test.h"
-#include "lab/engines/localize.h"
+// self-test.
+#include "bench/engines/localize.h"
+#include "device/detector/self_test.h"
 #include "scenarios.h"
 
 #include <sstream>
@@ -14,9 +14,6 @@ namespace {
 constexpr std::uint32_t kMostContacts = 20;
 
 /// One detector asked several times: an answer that is another's would be seen. The third batch needs larger Results.
-/// Looked at with labelClearances alone.
-constexpr std::int32_t kLabels[] = {1, 12345};
-
 std::string askThrice(Play& play, const DetectorDesc& desc) {
     const Setting setting(play);
     BlockingDetector detector = play.ask("BlockingDetector::create", [&] {
@@ -27,7 +24,7 @@ std::string askThrice(Play& play, const DetectorDesc& desc) {
         const std::vector<Mat4> poses = somePoses(pairs, 0.01 * pairs);
         const BatchItem item = setting.item(poses);
         answers += textOf(play.ask("BlockingDetector::detect", [&] {
-            return detector.detect({{&item, 1}, someView(), kThreshold, kLabels});
+            return detector.detect({{&item, 1}, someView(), kThreshold});
         }));
     }
     return answers;
@@ -45,7 +42,7 @@ std::vector<DetectorDesc> allWays() {
             ways.push_back({.method = method, .projection = projection, .filter = defaultFilter(method)});
         }
     }
-    ways.push_back({.method = CountingMethod::Compute, .projection = Projection::Conservative});
+    ways.push_back({.method = CountingMethod::Compute, .projection = Projection::Certified});
     return ways;
 }
 
@@ -131,23 +128,6 @@ std::string selfTests(Play& play) {
     return out;
 }
 
-std::string measuring(Play& play) {
-    const Context context = play.quietly([&] { return Context::create(play.stage().context); });
-    MeasureScene scene;
-    scene.volume = someVoxels();
-    scene.mesh = makeCube(0.2, 0.75);
-    scene.points.assign(byteRamp().begin(), byteRamp().end());
-    scene.domain = {0, 255};
-    scene.world_from_object = somePoses(3, 0);
-    scene.view = someView();
-    constexpr CountingMethod kMethods[] = {CountingMethod::Query, CountingMethod::Atomic};
-    const std::vector<MethodSpeed> speeds = play.ask("measureMethods", [&] {
-        return trusted(play, measureMethods(context, play.stage().queue,
-                                            {.scene = &scene, .methods = kMethods, .repetitions = 1}));
-    });
-    return std::to_string(speeds.size()) + (speeds.front().pairsPerSecond > 0 ? " measured" : "");
-}
-
 } // namespace
 
 std::vector<Scenario> detectScenarios() {
@@ -155,38 +135,18 @@ std::vector<Scenario> detectScenarios() {
     for (const DetectorDesc& desc : allWays()) {
         out.push_back({nameOf(desc), [desc](Play& play) { return askThrice(play, desc); }});
     }
-    out.push_back({"compute conservative stop-at-first counters", [](Play& play) {
+    out.push_back({"compute certified stop-at-first counters", [](Play& play) {
                        return askThrice(play, {.method = CountingMethod::Compute,
-                                               .projection = Projection::Conservative,
+                                               .projection = Projection::Certified,
                                                .stopAtFirst = true,
                                                .counters = true});
-                   }});
-    out.push_back({"compute conservative clearances", [](Play& play) {
-                       return askThrice(play, {.method = CountingMethod::Compute,
-                                               .projection = Projection::Conservative,
-                                               .stopAtFirst = true,
-                                               .clearance = ClearanceSearch{.maximum = 1}});
-                   }});
-    out.push_back({"compute conservative closest points", [](Play& play) {
-                       return askThrice(play, {.method = CountingMethod::Compute,
-                                               .projection = Projection::Conservative,
-                                               .stopAtFirst = true,
-                                               .clearance = ClearanceSearch{.maximum = 1},
-                                               .closest = true});
-                   }});
-    out.push_back({"compute conservative clearances to labels", [](Play& play) {
-                       return askThrice(play, {.method = CountingMethod::Compute,
-                                               .projection = Projection::Conservative,
-                                               .stopAtFirst = true,
-                                               .clearance = ClearanceSearch{.maximum = 1},
-                                               .labelClearances = true});
                    }});
     for (DetectorDesc desc : allWays()) {
         // All at once where a method or projection is first seen, one at a time by the rasteriser and certified.
         for (const Outputs& outputs : allOutputs()) {
             const bool all = outputs.triangles && outputs.contacts;
             const bool each = desc.method == CountingMethod::Atomic && desc.projection == Projection::View;
-            if (all || each || desc.projection == Projection::Conservative) {
+            if (all || each || desc.projection == Projection::Certified) {
                 desc.outputs = outputs;
                 out.push_back({nameOf(desc) + nameOf(outputs), [desc](Play& play) { return askThrice(play, desc); }});
             }
@@ -199,7 +159,6 @@ std::vector<Scenario> detectScenarios() {
                    (1U << 16U) + 5});
     out.push_back({"queries of triangles", localize});
     out.push_back({"self-test", selfTests, true});
-    out.push_back({"measuring", measuring, true});
     return out;
 }
 

@@ -81,15 +81,16 @@ void update(Play& play, Setting& setting, Embedder&, VkCommandBuffer commands, s
 }
 
 void bend(Play& play, Setting& setting, Embedder& embedder, VkCommandBuffer commands, std::uint64_t frame) {
-    std::vector<float> positions = setting.meshData.positions;
-    for (float& coordinate : positions) {
-        coordinate *= 1 - 0.1F * static_cast<float>(frame);
+    std::vector<double> positions = setting.meshData.positions;
+    for (double& coordinate : positions) {
+        coordinate *= 1 - 0.1 * static_cast<double>(frame);
     }
     if (frame % 2 == 0) {
         play.ask("Mesh::cmdUpdate", [&] { return setting.mesh.cmdUpdate(commands, positions); });
         return;
     }
-    const VkBuffer buffer = embedder.makeBuffer(std::span<const float>(positions), VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+    const VkBuffer buffer =
+        embedder.makeBuffer(std::span<const float>(floatsOf(positions)), VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     play.ask("Mesh::cmdCopy", [&] { return setting.mesh.cmdCopy(commands, buffer, 0); });
 }
 
@@ -138,7 +139,7 @@ std::vector<Scenario> editScenarios() {
         return Scenario{name, [=](Play& play) { return ring(play, desc, change); }};
     };
     const DetectorDesc certified{
-        .method = CountingMethod::Compute, .projection = Projection::Conservative, .outputs = kAll};
+        .method = CountingMethod::Compute, .projection = Projection::Certified, .outputs = kAll};
     return {
         story("ring query", {.method = CountingMethod::Query}, nothing),
         story("ring atomic outputs", {.method = CountingMethod::Atomic, .outputs = kAll}, nothing),

@@ -9,7 +9,7 @@ namespace voxtact::test {
 
 namespace {
 
-constexpr DetectorDesc kCertified{.method = CountingMethod::Compute, .projection = Projection::Conservative};
+constexpr DetectorDesc kCertified{.method = CountingMethod::Compute, .projection = Projection::Certified};
 
 /// What a detector says of a scene, while nothing fails.
 std::string answerOf(Play& play, const Context& context, const BatchItem& item, const DetectorDesc& desc) {
@@ -84,7 +84,7 @@ std::string wrap(Play& play) {
     constexpr VkBufferUsageFlags kUsage =
         VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
     const MeshData cube = makeCube(0.3, 0.8);
-    const VkBuffer vertices = embedder.makeBuffer(std::span(cube.positions), kUsage);
+    const VkBuffer vertices = embedder.makeBuffer(std::span<const float>(floatsOf(cube.positions)), kUsage);
     const VkBuffer indices = embedder.makeBuffer(std::span(cube.indices), kUsage);
     Mesh mesh = play.ask("Mesh::wrap", [&] {
         return Mesh::wrap(setting.context, {.vertices = vertices,

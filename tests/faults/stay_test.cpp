@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What leaves a device when a measurement ends before its time: everything.
-#include "lab/engines/scene.h"
+#include "bench/engines/scene.h"
 #include "scenarios.h"
 #include "sweep.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sweep.h"
-#include "device/vulkan_device.h"
 #include "pretend_driver.h"
+#include "vulkan/own/vulkan_device.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The arguments that the subcommands share, one a line of the input.
-#include "app/options/shared_options.h"
+#include "cli/options/shared_options.h"
 #include "fuzz.h"
 
 #include <CLI/CLI.hpp>
@@ -28,7 +28,9 @@ void declare(CLI::App& parser, Everything& all) {
     addVolumeOption(parser, all.volumes);
     addMeshOptions(parser, all.mesh, false);
     addTransferFunctionOptions(parser, all.transfer);
-    addViewOptions(parser, all.view);
+    addTableOptions(parser, all.transfer);
+    addPosesOptions(parser, all.view);
+    addCameraOptions(parser, all.view);
     addMethodOptions(parser, all.method);
     addDeviceOptions(parser, all.device);
     addOutputOptions(parser, all.output);
@@ -60,7 +62,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     } catch (const CLI::ParseError&) {
         return 0;
     }
-    voxtact::fuzz::require(all.transfer.tableSize >= 2, "a table has two entries");
+    voxtact::fuzz::require(all.transfer.tableSize.value_or(2) >= 2, "a table has two entries");
     voxtact::fuzz::require(all.transfer.threshold >= 0 && all.transfer.threshold <= 1, "a threshold is from 0 to 1");
     voxtact::fuzz::require(all.view.size.width > 0 && all.view.size.height > 0, "a viewport has pixels");
     voxtact::fuzz::require(all.mesh.scale > 0, "a mesh has a size");

@@ -1,30 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "few_kinds.h"
 
-#include <cstdlib>
-#include <iostream>
 #include <utility>
 
 namespace voxtact::test {
-
-namespace {
-
-std::uint64_t seedOfKind() {
-    const char* given = std::getenv("VOXTACT_TEST_KIND");
-    return given != nullptr ? std::strtoull(given, nullptr, 10) : std::random_device{}();
-}
-
-ImageKind drawKind(std::uint64_t seed) {
-    for (std::uint64_t number = 0;; ++number) {
-        const CertifiedCase c = makeClearanceCase(seed, number);
-        const VolumeView volume = c.scene.volume.view();
-        if (volume.type != ScalarType::UInt8) {
-            return {volume.type, powersOfTwo(volume, c.scene.tableSize)};
-        }
-    }
-}
-
-} // namespace
 
 unsigned powersOfTwo(const VolumeView& volume, std::uint32_t tableSize) {
     unsigned bits = std::has_single_bit(tableSize) ? kUsualKind : 0U;
@@ -34,34 +13,13 @@ unsigned powersOfTwo(const VolumeView& volume, std::uint32_t tableSize) {
     return bits;
 }
 
-ImageKind otherKind() {
-    static const std::uint64_t kSeed = seedOfKind();
-    static const ImageKind kOther = drawKind(kSeed);
-    std::cout << "VOXTACT_TEST_KIND=" << kSeed << "\n"; // each time: what a test printed is all that is shown of it
-    return kOther;
-}
-
-std::vector<ScalarType> fewTypes() {
-    if (longTests()) {
-        return {kVoxelTypes.begin(), kVoxelTypes.end()};
-    }
-    return {ScalarType::UInt8, otherKind().type};
-}
-
-FewKindsOfImage::FewKindsOfImage(std::uint64_t cases, ImageKinds kinds)
-    : firstIsOfAnyKind_(kinds == ImageKinds::Most && !longTests()) {
-    if (longTests()) {
-        for (const ScalarType type : kVoxelTypes) {
+FewKindsOfImage::FewKindsOfImage(std::uint64_t cases) : firstIsOfAnyKind_(!longTests()) {
+    for (const ScalarType type : {ScalarType::UInt8, ScalarType::Int16, ScalarType::UInt16, ScalarType::Float32}) {
+        if (longTests()) {
             types_[type] = {};
-        }
-    } else if (kinds == ImageKinds::Most) {
-        for (const ScalarType type : kVoxelTypes) {
+        } else {
             types_[type].powersOfTwo = kUsualKind;
         }
-    } else {
-        const ImageKind other = otherKind();
-        types_[ScalarType::UInt8].powersOfTwo = kUsualKind;
-        types_[other.type].powersOfTwo = other.powersOfTwo;
     }
     casesOfEach_ = cases / types_.size();
 }

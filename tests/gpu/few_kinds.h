@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "cpu/scenes/margin_cases.h"
 #include "support/scenes.h"
 #include "voxtact/data.h"
 
@@ -14,7 +13,6 @@
 #include <optional>
 #include <random>
 #include <string>
-#include <vector>
 
 namespace voxtact::test {
 
@@ -35,35 +33,13 @@ unsigned powersOfTwo(const VolumeView& volume, std::uint32_t tableSize);
 /// compiled already.
 inline constexpr unsigned kUsualKind = 8;
 
-/// A type of voxels and which sides are powers of two.
-struct ImageKind {
-    ScalarType type = ScalarType::UInt8;
-    unsigned powersOfTwo = kUsualKind;
-};
-/// The kind of images that the tests of this process use besides bytes of the usual kind: not of bytes, and any of the
-/// kinds that makeClearanceCase() makes, as often as it does. Printed; VOXTACT_TEST_KIND, a seed, chooses it.
-ImageKind otherKind();
-
-/// Types of voxels for a test in which they come by turns: all, or where the tests are not in their long form, bytes
-/// and that of otherKind().
-std::vector<ScalarType> fewTypes();
-
-/// What the images of a run are, where the tests are not in their long form.
-enum class ImageKinds {
-    Few,  ///< of bytes of the usual kind, and of otherKind()
-    Most, ///< of all types of voxels: the type that comes first of the kind that comes first, the others of the usual
-          ///< one
-};
-
-/// The images of a run. llvmpipe compiles a shader anew for each format and for which of the sides of the volume and of
-/// the table are powers of two: 64 kinds, of which 300 cases have nearly all, and seconds for each. So a run has few of
-/// them, with as many cases of each where a number of cases is asked for, and those with `Few` have the same in all of
-/// a process. In the long form each type of voxels has the kind that comes first.
+/// The images of a run. llvmpipe compiles a shader again for each format and for which of the sides of the volume and
+/// of the table are powers of two: 64 kinds, of which 300 cases have nearly all, and seconds for each. So a run has all
+/// types of voxels, with as many cases of each where a number of cases is asked for: the type that comes first of the
+/// kind that comes first, the others of the usual one. In the long form each type has the kind that comes first.
 class FewKindsOfImage {
   public:
-    /// As many as are wanted.
-    explicit FewKindsOfImage(ImageKinds kinds) : FewKindsOfImage(std::numeric_limits<std::uint64_t>::max(), kinds) {}
-    explicit FewKindsOfImage(std::uint64_t cases, ImageKinds kinds = ImageKinds::Few);
+    explicit FewKindsOfImage(std::uint64_t cases = std::numeric_limits<std::uint64_t>::max());
 
     /// Whether a case with such images is to be run; it is then taken for run. After 300 images of a type, none of
     /// which is of the kind that its images are to have, they have the kind of the next: what makes the cases may never
@@ -97,9 +73,8 @@ class FewKindsOfImage {
 /// Looks at so many of the cases that `make(number)` makes, which have a `scene`, until something fails. Returns how
 /// many there were.
 template <class Make, class Look>
-std::uint64_t forFewKinds(std::uint64_t cases, std::uint64_t seed, Make make, Look look,
-                          ImageKinds kinds = ImageKinds::Few) {
-    FewKindsOfImage few(cases, kinds);
+std::uint64_t forFewKinds(std::uint64_t cases, std::uint64_t seed, Make make, Look look) {
+    FewKindsOfImage few(cases);
     std::uint64_t looked = 0;
     for (std::uint64_t number = 0; !few.isDone() && !testing::Test::HasFailure(); ++number) {
         auto c = make(number);

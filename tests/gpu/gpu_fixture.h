@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "device/vulkan_device.h"
 #include "support/take.h"
 #include "voxtact/detector.h"
+#include "vulkan/own/vulkan_device.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "device/vulkan_device.h"
+#include "vulkan/own/vulkan_device.h"
 
 #include <cstring>
 #include <span>

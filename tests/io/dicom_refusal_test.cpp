@@ -2,7 +2,6 @@
 // DICOM folders that are refused: which file, what is wrong with it, and never a guess.
 #include "dicom_writer.h"
 
-#include <chrono>
 #include <fstream>
 #include <random>
 
@@ -214,7 +213,6 @@ TEST_F(DicomRefusal, PixelsOfOtherKinds) {
 TEST_F(DicomRefusal, GigabytesThatAreNotThere) {
     rusage before{};
     getrusage(RUSAGE_SELF, &before);
-    const auto begin = std::chrono::steady_clock::now();
     expectRefused(readWith(1, ctSlice(1).number(0x00280010, 65535).number(0x00280011, 65535)),
                   "its pixels take 30 bytes, which is not 65535 columns x 65535 rows x 1 frames x 2 bytes", slice(1));
     expectRefused(readWith(1, ctSlice(1).text(0x00280008, "IS", "4294967295")), "its pixels take 30 bytes", slice(1));
@@ -243,7 +241,7 @@ TEST_F(DicomRefusal, GigabytesThatAreNotThere) {
     rusage after{};
     getrusage(RUSAGE_SELF, &after);
     EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 64 * 1024) << "KiB";
-    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
+    EXPECT_LT(after.ru_utime.tv_sec - before.ru_utime.tv_sec, 20) << "seconds of the processor";
 }
 
 /// Pipes are not waited for, and what stands in other files is nobody's business: a system's configuration once ended

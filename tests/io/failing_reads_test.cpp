@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every read of a file fails once, and it and all after it: whoever reads says so, or has the whole file nevertheless.
+// Every read of a file fails once, and it and all after it: the reader says so, or has the whole file nevertheless.
 #include "dicom_writer.h"
 #include "failing_reads.h"
 #include "io_test_support.h"

@@ -100,10 +100,10 @@ Result<MeshData> read(const std::string& content, const std::string& name = "m.g
 }
 
 /// The corners of all triangles, or nothing where the file is refused.
-std::vector<float> cornersOf(const Gltf& file) {
+std::vector<double> cornersOf(const Gltf& file) {
     const auto mesh = read(file.text());
     EXPECT_TRUE(isOk(mesh));
-    std::vector<float> list;
+    std::vector<double> list;
     if (mesh.ok()) {
         for (const std::uint32_t index : mesh->indices) {
             list.insert(list.end(), mesh->positions.begin() + std::ptrdiff_t{3} * index,
@@ -123,7 +123,7 @@ TEST(Gltf, NodesAreApplied) {
     file.json["nodes"] = Json::parse(
         R"([{"mesh": 0, "rotation": [0, 0, 0.7071067811865476, 0.7071067811865476], "scale": [2, 1, 1], "translation": [1, 2, 3]}])");
     EXPECT_THAT(cornersOf(file),
-                testing::Pointwise(testing::FloatNear(1e-6F), std::vector<float>{1, 2, 3, 1, 4, 3, 0, 2, 3}));
+                testing::Pointwise(testing::DoubleNear(1e-6), std::vector<double>{1, 2, 3, 1, 4, 3, 0, 2, 3}));
     file.json["nodes"] = Json::parse(R"([{"mesh": 0, "matrix": [0, 2, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1]}])");
     EXPECT_THAT(cornersOf(file), ElementsAre(1, 2, 3, 1, 4, 3, 0, 2, 3));
 }

@@ -24,8 +24,8 @@ TEST(MeshRefusal, Files) {
     expectRefused(io::readMesh(folder / "absent.stl"), "absent.stl': there is no such file");
     expectRefused(io::readMesh(folder.path()), "it is a folder, not a file");
     expectRefused(io::readMesh(folder.write("m.xyz", "1 2 3")),
-                  "its ending is none of .stl, .obj, .ply, .off, .gltf and .glb");
-    for (const char* name : {"m.stl", "m.obj", "m.ply", "m.off", "m.gltf", "m.glb"}) {
+                  "its ending is none of .stl, .obj, .ply, .off, .vtk, .vtp, .gltf and .glb");
+    for (const char* name : {"m.stl", "m.obj", "m.ply", "m.off", "m.vtk", "m.vtp", "m.gltf", "m.glb"}) {
         expectRefused(io::readMesh(folder.write(name, "")), "the file is empty", folder / name);
         expectRefused(io::readMesh(folder.write(name, "complete rubbish, no mesh at all, of some length\n")), "",
                       folder / name);
@@ -169,8 +169,8 @@ TEST(MeshRefusal, Ply) {
          {"ply\nelement vertex 1\nproperty float x\nend_header\n0\n", "its PLY header has no format"},
          {"ply\nformat ascii 1.0\nelement face 1\nproperty list float int vertex_indices\n",
           "line 4: the length of a list is of a type that is not whole"},
-         {"ply\nformat ascii 1.0\nelement tristrips 1\nproperty list int int vertex_indices\nend_header\n3 0 1 2\n",
-          "it holds triangle strips"},
+         {"ply\nformat ascii 1.0\nelement tristrips 1\nproperty list int float vertex_indices\nend_header\n3 0 1 2\n",
+          "its tristrips have no list vertex_indices of whole numbers"},
          {"ply\nformat ascii 1.0\nelement vertex x\nend_header\n", "line 3: an element needs its number"},
          {"ply\nproperty quux x\nend_header\n", "line 2"}});
 }
@@ -188,7 +188,7 @@ TEST(MeshRefusal, Off) {
                   {"OFF\n3 1 0\n" + corners + "3 0 1 2\n3 0 1 2\n", "line 7: the file goes on after the 1 faces"},
                   {"OFF\n3 1 0\n" + corners + "3 0 1 -1\n", "line 6: '-1' is not the number"},
                   {"OFF BINARY\n3 1 0\n" + corners, "it is not a plain OFF file"},
-                  {"COFF\n3 1 0\n", "it is not a plain OFF file"}});
+                  {"COFF\n3 1 0\n", "it is truncated: it has 0 of 3 vertices"}});
 }
 
 TEST(MeshRefusal, NothingIsPrinted) {

@@ -14,8 +14,8 @@ MeshData square() {
     return mesh;
 }
 
-std::vector<float> corners(const MeshData& mesh) {
-    std::vector<float> list;
+std::vector<double> corners(const MeshData& mesh) {
+    std::vector<double> list;
     for (const std::uint32_t index : mesh.indices) {
         list.insert(list.end(), mesh.positions.begin() + std::ptrdiff_t{3} * index,
                     mesh.positions.begin() + std::ptrdiff_t{3} * index + 3);
@@ -54,6 +54,40 @@ TEST(Mesh, SpaceAndScale) {
     }
     options.scale = 1e300;
     expectRefused(io::readMesh(path, options), "too far away for a float");
+}
+
+TEST(Mesh, CoordinatesStayDoubles) {
+    const TemporaryFolder folder;
+    const std::string obj =
+        "v 500008.9 4649781.2 1005.2\nv 500008.9 4649784.2 1005.2\nv 500008.9 4649781.2 1008.2\nf 1 2 3\n";
+    const std::vector<double> expected{500008.9, 4649781.2, 1005.2,    500008.9, 4649784.2,
+                                       1005.2,   500008.9,  4649781.2, 1008.2};
+    const auto read = io::readMesh(folder.write("m.obj", obj));
+    ASSERT_TRUE(isOk(read));
+    EXPECT_EQ(read->positions, expected);
+    EXPECT_TRUE(read->notes.empty());
+    // Through files that hold doubles, and flipped and scaled with the same arithmetic.
+    for (const char* name : {"m.ply", "n.obj"}) {
+        ASSERT_TRUE(isOk(io::writeMesh(folder / name, read->view())));
+        const auto again = io::readMesh(folder / name, {.space = io::MeshSpace::RAS, .scale = 1000});
+        ASSERT_TRUE(isOk(again)) << name;
+        for (std::size_t i = 0; i < expected.size(); ++i) {
+            EXPECT_EQ(again->positions[i], expected[i] * (i % 3 == 2 ? 1000.0 : -1000.0)) << name;
+        }
+    }
+    ASSERT_TRUE(isOk(io::writeMesh(folder / "m.stl", read->view())));
+    const auto rounded = io::readMesh(folder / "m.stl");
+    ASSERT_TRUE(isOk(rounded));
+    EXPECT_EQ(rounded->positions[1], static_cast<double>(4649781.2F));
+}
+
+TEST(Mesh, WhatStillRoundsIsNoted) {
+    const TemporaryFolder folder;
+    const auto read = io::readMesh(folder.write("m.obj", "v 0.1 0 0\nv 200000.1 0 0\nv 0 200000.1 0\nf 1 2 3\n"));
+    ASSERT_TRUE(isOk(read));
+    ASSERT_EQ(read->notes.size(), 1U);
+    EXPECT_THAT(read->notes[0], testing::HasSubstr("vertices rounded by up to 0.00"));
+    EXPECT_GT(checkMesh(read->view())->rounding, kNotedRounding);
 }
 
 TEST(Mesh, PolygonsPointsAndLines) {

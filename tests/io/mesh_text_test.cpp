@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Mesh files in text: what is a number, a comment, a line. The expected numbers are those of strtof().
+// Mesh files in text: what is a number, a comment, a line. The expected numbers are those of strtod().
 #include "io_test_support.h"
 
 #include <cstdlib>
@@ -31,7 +31,7 @@ void expectNumbers(const std::array<std::string, 3>& x) {
         const MeshData mesh = readText(name, content);
         ASSERT_EQ(mesh.indices.size(), 3U) << name;
         for (std::size_t corner = 0; corner < 3; ++corner) {
-            EXPECT_EQ(mesh.positions[std::size_t{3} * mesh.indices[corner]], std::strtof(x[corner].c_str(), nullptr))
+            EXPECT_EQ(mesh.positions[std::size_t{3} * mesh.indices[corner]], std::strtod(x[corner].c_str(), nullptr))
                 << name << ": " << x[corner];
         }
     }
@@ -50,7 +50,7 @@ TEST(MeshText, NumbersInEverySpelling) {
         {"1.00000017881393432617187500000001", "1.000000178813934326171875", "1.00000017881393432617187499999999"});
 }
 
-TEST(MeshText, RandomNumbersAreTheNearestFloats) {
+TEST(MeshText, RandomNumbersAreTheNearestDoubles) {
     const std::uint64_t seed = std::random_device{}();
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937_64 random(seed);
@@ -70,7 +70,7 @@ TEST(MeshText, RandomNumbersAreTheNearestFloats) {
 }
 
 TEST(MeshText, ObjCommentsBlanksAndColours) {
-    const std::vector<float> expected{.5F, 0, 0, 1, 0, 0, 0, 1, 0};
+    const std::vector<double> expected{.5F, 0, 0, 1, 0, 0, 0, 1, 0};
     for (const char* content :
          {"v .5 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 # c\n", "\tv .5 0 0\n  v 1 0 0\nv\t0 1 0\n f 1 2 3",
           "v .5 0 0 1\nv 1 0 0 1.0\nv 0 1 0 # w\nf 1/1 2/1/1 3//1\n",
@@ -120,7 +120,7 @@ template <class Number> void appendAs(std::string& bytes, Number number, bool bi
 
 /// Any order of elements and properties, lists between them, what is not a number where none is asked for.
 TEST(MeshText, PlyAsItsHeaderSays) {
-    const std::vector<float> expected{1, 2, 3, 4, 5, 6, 7, 8, 9};
+    const std::vector<double> expected{1, 2, 3, 4, 5, 6, 7, 8, 9};
     EXPECT_EQ(
         readText("m.ply", plyOf("ascii", "255 3 0 1 2\n7\n\n8\n3 nan 1 2 0\n6 1 4 5 2 0.5 x\r\n9 - 7 8 0\n")).positions,
         expected);

@@ -58,7 +58,7 @@ TEST(NoFiles, FoldersPipesSocketsAndDevices) {
     expectAll(folder / "link.stl", "it is a pipe, not a file; write what it gives to a file first");
 }
 
-/// What a header names is looked at in the same way.
+/// What a header names is examined in the same way.
 TEST(NoFiles, PartsOfAnInput) {
     const TemporaryFolder folder;
     ASSERT_EQ(::mkfifo((folder / "part.raw").c_str(), 0600), 0);

@@ -31,6 +31,53 @@ TEST(Poses, RowsBecomeColumns) {
     EXPECT_EQ((*poses)[1][8], 5);
 }
 
+/// As numpy, 3D Slicer and ITK write a pose. The transform of ITK goes from the place of the object to the object.
+TEST(Poses, AsOtherProgramsWriteThem) {
+    const TemporaryFolder folder;
+    const Mat4 turned{0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1};
+    const std::string itk = "#Insight Transform File V1.0\n#Transform 0\nTransform: AffineTransform_double_3_3\n"
+                            "Parameters: 0 1 0 -1 0 0 0 0 1 -6 5 -7\nFixedParameters: 0 0 0\n";
+    // y = A (x - c) + t + c: the same transform, about (1, 2, 3).
+    const std::string centred = "#Insight Transform File V1.0\nTransform: MatrixOffsetTransformBase_double_3_3\n"
+                                "Parameters: 0 1 0 -1 0 0 0 0 1 -5 2 -7\nFixedParameters: 1 2 3\n";
+    for (const std::string& text :
+         {std::string("0,-1,0,5,1e+00,0,0,6,0,0,1,7,0,0,0,1\n"),
+          std::string("0, -1, 0, 5, 1, 0, 0, 6, 0, 0, 1, 7, 0, 0, 0, 1 # a pose\n"),
+          std::string("0 -1 0 5\n1 0 0 6\n\n0 0 1 7\n0 0 0 1"), std::string("0,-1,0,5\n1,0,0,6\n0,0,1,7\n0,0,0,1\n"),
+          std::string("0 -1 0 5 1 0 0 6 0 0 1 7\n"), std::string("0, -1, 0, 5, 1, 0, 0, 6, 0, 0, 1, 7\n"), itk,
+          centred}) {
+        const auto poses = io::readPoses(folder.write("p.txt", text));
+        ASSERT_TRUE(isOk(poses)) << text;
+        EXPECT_THAT(*poses, testing::ElementsAre(turned)) << text;
+    }
+    const auto several =
+        io::readPoses(folder.write("p.txt", itk + kIdentity + "0 -1 0 5\n1 0 0 6\n0 0 1 7\n0 0 0 1\n"));
+    ASSERT_TRUE(isOk(several));
+    EXPECT_THAT(*several, testing::ElementsAre(turned, identity(), turned));
+    struct Case {
+        std::string text;
+        const char* reason;
+    };
+    const std::string head = "Transform: AffineTransform_double_3_3\n";
+    for (const Case& bad :
+         {Case{"1 0 0 0\n0 1 0 0\n", "line 2: the end in a pose of four lines of 4 numbers"},
+          Case{"1 0 0 0\n0 1 0\n", "line 2: 3 numbers in a pose of four lines"},
+          Case{"1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 1 1\n", "line 4"},
+          Case{"1,0,0,0,0,1,0,0,0,0,1,0,0,0,1\n", "'1,0,0,0,0,1,0,0,0,0,1,0,0,0,1' is not a number"},
+          Case{"1,,0,0,0,1,0,0,0,0,1,0,0,0,0,1\n", "'' is not a number"},
+          Case{"Transform: Euler3DTransform_double_3_3\nParameters: 0 0 0 0 0 0\n",
+               "line 1: the ITK transform 'Euler3DTransform_double_3_3' is not supported; save it as an affine one"},
+          Case{"Transform: AffineTransform_double_2_2\n", "is not supported"},
+          Case{head, "line 1: a line 'Parameters:' is missing"},
+          Case{head + "Parameters: 1 0 0 0 1 0 0 0 1 0 0\n", "line 2: 'Parameters:' has 11 numbers, not 12"},
+          Case{head + "Parameters: 1 0 0 0 1 0 0 0 1 0 0 0\n", "line 2: a line 'FixedParameters:' is missing"},
+          Case{head + "Parameters: 1 0 0 0 0 0 0 0 1 0 0 0\nFixedParameters: 0 0 0\n", "line 3"},
+          Case{head + "Parameters: 1 0 0 0 1 0 0 0 1 0 x 0\n", "line 2: 'x' is not a number"}}) {
+        const auto path = folder.write("p.txt", bad.text);
+        expectRefused(io::readPoses(path), bad.reason, path);
+    }
+}
+
 TEST(Poses, ShortestTextIsExact) {
     const TemporaryFolder folder;
     const Mat4 pose{0.1, 1.0 / 3, -1e-300, 0, 2e17, 5e-324, 1, 0, 7, 8, 9, 0, -0.0, 1e308, 3, 1};
@@ -59,8 +106,8 @@ TEST(Poses, RefusalsNameTheLine) {
         const char* reason;
     };
     for (const Case& bad :
-         {Case{"1 0 0 0 0 1 0 0 0 0 1 0 0 0 1", "line 3: 15 numbers, a pose has 16 (row by row)"},
-          Case{"1", "line 3: 1 number, a pose has 16 (row by row)"},
+         {Case{"1 0 0 0 0 1 0 0 0 0 1 0 0 0 1", "line 3: 15 numbers, a pose has 16, or 12 (row by row)"},
+          Case{"1", "line 3: 1 number, a pose has 16, or 12 (row by row)"},
           Case{"1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 2", "line 3: 17 numbers, a pose has 16"},
           Case{"1 0 0 x 0 1 0 0 0 0 1 0 0 0 0 1", "line 3: 'x' is not a number"},
           Case{"1,5 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1", "line 3: '1,5' is not a number"},
@@ -209,6 +256,87 @@ TEST(TransferFunction, Refusals) {
         const auto path = folder.write("tf.txt", bad.text);
         expectRefused(io::readTransferFunction(path), bad.reason, path);
     }
+}
+
+TEST(TransferFunction, OfParaView) {
+    const TemporaryFolder folder;
+    const auto path = folder.write("map.json", R"([{"ColorSpace": "Diverging", "Name": "CT",
+        "Points": [-100, 0, 0.5, 0, 300, 0.25, 0.5, 0, 1000, 1, 0.2, 0.7],
+        "RGBPoints": [-100, 0, 0, 0, 1000, 1, 0.5, 0.25]}])");
+    const auto points = io::readTransferFunction(path);
+    ASSERT_TRUE(isOk(points));
+    ASSERT_EQ(points->size(), 3U);
+    EXPECT_EQ((*points)[1].value, 300);
+    EXPECT_EQ((*points)[1].opacity, 0.25);
+    EXPECT_EQ((*points)[2].opacity, 1);
+    const auto colours = io::readColours(path);
+    ASSERT_TRUE(isOk(colours));
+    ASSERT_EQ(colours->size(), 2U);
+    EXPECT_EQ((*colours)[1].colour, (std::array<double, 3>{1, 0.5, 0.25}));
+
+    const auto refused = [&](const std::string& members) {
+        return io::readTransferFunction(folder.write("bad.json", "[{\"RGBPoints\": [0, 0, 0, 0]" + members + "}]"));
+    };
+    expectRefused(refused(""), "has no opacity ('Points')");
+    expectRefused(refused(R"(, "Points": [0, 0, 0.3, 0, 1, 1, 0.5, 0])"),
+                  "Points[0]: the opacity behind it has the midpoint 0.3");
+    expectRefused(refused(R"(, "Points": [0, 0, 0.5, 1, 1, 1, 0.5, 0])"), "the sharpness 1");
+    expectRefused(refused(R"(, "Points": [0, 0, 0.5])"), "Points is not a list of four numbers a point");
+    expectRefused(refused(R"(, "Points": [0, 0, 0.5, null])"), "Points is not a list of four numbers a point");
+    expectRefused(refused(R"(, "Points": [0, 2, 0.5, 0])"), "opacity point 1: the opacity 2 is outside 0..1");
+    expectRefused(refused(R"(, "Points": [1, 0, 0.5, 0, 0, 1, 0.5, 0])"), "opacity point 2: the value 0 is below");
+    expectRefused(refused("}, {\"RGBPoints\": []"), "it holds 2 colour maps");
+}
+
+TEST(TransferFunction, OfSlicersVolumeProperty) {
+    const TemporaryFolder folder;
+    const std::string head = "1\n1\n0.9\n0.1\n0.2\n10\n";
+    const std::string opacity = "6 -3024 0 139.919 0.589286 3071 0.616071\n";
+    const std::string colours = "8 -3024 0 0 0 3071 0.827451 0.658824 1\n";
+    const auto path = folder.write("ct.vp", head + opacity + "4 0 1 255 1\n" + colours + "\n");
+    const auto points = io::readTransferFunction(path);
+    ASSERT_TRUE(isOk(points));
+    ASSERT_EQ(points->size(), 3U);
+    EXPECT_EQ((*points)[1].value, 139.919);
+    EXPECT_EQ((*points)[1].opacity, 0.589286);
+    const std::string xml =
+        "<VolumeProperty version=\"1.9\" gradientOpacity=\"4 0 1 255 1\"\n scalarOpacity=\"6 -3024 0 "
+        "139.919 0.589286 3071 0.616071\" colorTransfer=\"8 -3024 0 0 0 3071 0.827451 0.658824 1\"/>\n";
+    const auto element = folder.write("xml.vp", xml);
+    const auto same = io::readTransferFunction(element);
+    ASSERT_TRUE(isOk(same));
+    ASSERT_EQ(same->size(), 3U);
+    EXPECT_EQ((*same)[1].value, 139.919);
+    EXPECT_EQ((*same)[2].opacity, 0.616071);
+    for (const auto& file : {path, element}) {
+        const auto read = io::readColours(file);
+        ASSERT_TRUE(isOk(read));
+        ASSERT_EQ(read->size(), 2U);
+        EXPECT_EQ((*read)[1].colour, (std::array<double, 3>{0.827451, 0.658824, 1}));
+    }
+
+    const auto refused = [&](const std::string& text) {
+        return io::readTransferFunction(folder.write("bad.vp", text));
+    };
+    expectRefused(refused("<VolumeProperty version=\"1.9\"/>\n"), "has not one attribute scalarOpacity");
+    expectRefused(refused("<Scene/>\n"), "bad.vp line 1: it is not one number");
+    for (const auto& [from, to, reason] :
+         {std::tuple("255 1", "255 0", "bad.vp line 1: the gradient opacity 0"),
+          std::tuple("6 -3024", "5 -3024", "bad.vp line 2: it is not the count of its numbers"),
+          std::tuple(" scalarOpacity", " xscalarOpacity", "has not one attribute scalarOpacity"),
+          std::tuple("/>", " scalarOpacity=\"2 0 0\"/>", "has not one attribute scalarOpacity")}) {
+        std::string changed = xml;
+        changed.replace(changed.find(from), std::string_view(from).size(), to);
+        expectRefused(refused(changed), reason);
+    }
+    expectRefused(refused(head), "it ends before its opacity");
+    expectRefused(refused(head + "4 0 0 1\n4 0 1 255 1\n" + colours),
+                  "line 7: it is not the count of its numbers and 2 numbers a point");
+    expectRefused(refused(head + opacity + "4 0 1 255 0.5\n" + colours), "line 8: the gradient opacity 0.5");
+    expectRefused(refused(head + opacity + "4 0 1 255 1\n6 0 0 0 0 1 1\n"), "line 9: it is not the count");
+    expectRefused(refused(head + opacity + "4 0 1 255 1\n" + colours + "7\n"), "line 10: it is behind the colours");
+    expectRefused(refused(head + "4 1 0 0 1\n4 0 1 255 1\n" + colours), "opacity point 2: the value 0 is below");
+    expectRefused(io::readTransferFunction(folder / "absent.vp"), "there is no such file");
 }
 
 TEST(Opacity, Parses) {

@@ -155,21 +155,14 @@ TEST(VolumeRefusal, VoxelsThatAreNoScalars) {
 
 TEST(VolumeRefusal, Storage) {
     const TemporaryFolder folder;
-    expectRefused(io::readVolume(folder.write("v.nrrd", "NRRD0004\ntype: short\ndimension: 3\nsizes: 2 2 2\n"
-                                                        "encoding: ascii\n\n1 2 3 4 5 6 7 8\n")),
-                  "its encoding 'ascii' is not supported");
-    expectRefused(io::readVolume(folder.write("v.nrrd", nrrd("ascii", "1 2 3"))),
-                  "its encoding 'ascii' is not supported");
-    expectRefused(
-        io::readVolume(folder.write("v.mha", "NDims = 3\nBinaryData = False\nDimSize = 2 1 1\nElementType = MET_UCHAR\n"
-                                             "ElementDataFile = LOCAL\n1 2")),
-        "its voxels are text");
+    expectRefused(io::readVolume(folder.write("v.nrrd", nrrd("bzip2", "1 2 3"))),
+                  "its encoding 'bzip2' is not supported");
     expectRefused(io::readVolume(folder.write("v.mhd", "NDims = 3\nDimSize = 2 1 1\nElementType = MET_UCHAR\n"
                                                        "ElementDataFile = gone.raw\n")),
                   "gone.raw': there is no such file");
     expectRefused(io::readVolume(folder.write("v.mhd", "NDims = 3\nDimSize = 2 1 1\nElementType = MET_UCHAR\n"
                                                        "ElementDataFile = LIST\na\nb\n")),
-                  "spread over several files");
+                  "its voxels are in 2 files, its 1 slices cannot be spread over them evenly");
 }
 
 TEST(VolumeRefusal, SingularDirection) {

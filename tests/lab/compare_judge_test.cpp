@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Who must agree with whom, on made-up numbers.
-#include "lab/compare/agreement.h"
-#include "lab/engines/scene.h"
+#include "bench/compare/agreement.h"
+#include "bench/engines/scene.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,9 +11,9 @@
 namespace voxtact::test {
 namespace {
 
+using lab::CompareVerdict;
 using lab::FragmentCheck;
 using lab::NamedCounts;
-using lab::Verdict;
 using oracle::Doubt;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -22,7 +22,7 @@ const std::vector<std::uint32_t> kPoses{10, 11, 12};
 
 TEST(CompareJudge, EqualCountsAgree) {
     const std::vector<NamedCounts> group{{"query", {0, 5, 9}}, {"atomic", {0, 5, 9}}, {"subgroup", {0, 5, 9}}};
-    const Verdict verdict = lab::judgeEqual(group, kPoses);
+    const CompareVerdict verdict = lab::judgeEqual(group, kPoses);
     EXPECT_EQ(verdict.rule, "query = atomic = subgroup");
     EXPECT_FALSE(verdict.failed());
     EXPECT_EQ(verdict.compared, 3U);
@@ -31,7 +31,7 @@ TEST(CompareJudge, EqualCountsAgree) {
 
 TEST(CompareJudge, OneFragmentIsADisagreement) {
     const std::vector<NamedCounts> group{{"compute", {7, 5, 9}}, {"cpu", {7, 4, 12}}};
-    const Verdict verdict = lab::judgeEqual(group, kPoses);
+    const CompareVerdict verdict = lab::judgeEqual(group, kPoses);
     ASSERT_TRUE(verdict.failed());
     EXPECT_EQ(verdict.differing, 2U);
     EXPECT_EQ(verdict.largest, 3U);
@@ -41,7 +41,7 @@ TEST(CompareJudge, OneFragmentIsADisagreement) {
 
 TEST(CompareJudge, OneMethodAloneIsNotChecked) {
     const std::vector<NamedCounts> group{{"cpu", {7, 4, 12}}};
-    const Verdict verdict = lab::judgeEqual(group, kPoses);
+    const CompareVerdict verdict = lab::judgeEqual(group, kPoses);
     EXPECT_FALSE(verdict.failed());
     EXPECT_NE(verdict.unchecked, "");
     EXPECT_EQ(verdict.compared, 0U);
@@ -49,7 +49,7 @@ TEST(CompareJudge, OneMethodAloneIsNotChecked) {
 
 TEST(CompareJudge, HitsAreZeroOrNot) {
     EXPECT_FALSE(lab::judgeHits({"query-any", {0, 1, 77}}, {"query", {0, 5, 9}}, kPoses).failed());
-    const Verdict miss = lab::judgeHits({"query-any", {0, 0, 1}}, {"query", {0, 5, 9}}, kPoses);
+    const CompareVerdict miss = lab::judgeHits({"query-any", {0, 0, 1}}, {"query", {0, 5, 9}}, kPoses);
     ASSERT_TRUE(miss.failed());
     EXPECT_EQ(miss.first->pose, 11U);
     EXPECT_EQ(miss.first->text, "query-any misses, query 5");
@@ -58,7 +58,7 @@ TEST(CompareJudge, HitsAreZeroOrNot) {
 }
 
 TEST(CompareJudge, GroupsMayDifferAndAreTold) {
-    const Verdict verdict = lab::tellDifference({"query", {7, 5, 9}}, {"cpu", {6, 5, 12}}, kPoses);
+    const CompareVerdict verdict = lab::tellDifference({"query", {7, 5, 9}}, {"cpu", {6, 5, 12}}, kPoses);
     EXPECT_FALSE(verdict.failed());
     EXPECT_EQ(verdict.differing, 2U);
     EXPECT_EQ(verdict.largest, 3U);
@@ -71,7 +71,7 @@ TEST(CompareJudge, ARasteriserThatLosesHalfOfAMeshIsADisagreement) {
         return lab::judgeRounding({"query", {5, raster, 9}}, {"cpu", {5, host, 9}}, kPoses);
     };
     EXPECT_FALSE(judge(86, 300).failed()) << "half and 64 apart";
-    const Verdict lost = judge(85, 300);
+    const CompareVerdict lost = judge(85, 300);
     ASSERT_TRUE(lost.failed());
     EXPECT_EQ(lost.first->pose, 11U);
     EXPECT_EQ(lost.first->text, "query 85, cpu 300");
@@ -81,7 +81,7 @@ TEST(CompareJudge, ARasteriserThatLosesHalfOfAMeshIsADisagreement) {
     // Of all methods: the rasteriser's agree with each other.
     const std::vector<NamedCounts> all{
         {"query", {0, 9, 0}}, {"atomic", {0, 9, 0}}, {"compute", {0, 900, 0}}, {"cpu", {0, 900, 0}}};
-    EXPECT_EQ(std::ranges::count_if(lab::judgeCounts(all, kPoses), &Verdict::failed), 1);
+    EXPECT_EQ(std::ranges::count_if(lab::judgeCounts(all, kPoses), &CompareVerdict::failed), 1);
 }
 
 TEST(CompareJudge, PosesThatTouchAreThoseOfAnyMethod) {
@@ -109,7 +109,7 @@ std::array<std::uint64_t, 4> countsOf(const std::vector<FragmentCheck>& checks) 
 TEST(CompareJudge, FragmentsWithAReasonAgree) {
     const std::vector<FragmentCheck> checks{checkOf(1, {}),
                                             checkOf(2, {Doubt::Coverage, Doubt::Opacity, Doubt::Opacity})};
-    const Verdict verdict = lab::judgeFragments(checks);
+    const CompareVerdict verdict = lab::judgeFragments(checks);
     EXPECT_FALSE(verdict.failed());
     EXPECT_EQ(verdict.compared, 203U);
     EXPECT_THAT(verdict.detail, HasSubstr("on 2 poses: "));
@@ -120,7 +120,7 @@ TEST(CompareJudge, FragmentsWithAReasonAgree) {
 
 TEST(CompareJudge, AFragmentWithoutAReasonIsADisagreement) {
     const std::vector<FragmentCheck> checks{checkOf(1, {Doubt::Coverage}), checkOf(2, {Doubt::Opacity, Doubt::None})};
-    const Verdict verdict = lab::judgeFragments(checks);
+    const CompareVerdict verdict = lab::judgeFragments(checks);
     ASSERT_TRUE(verdict.failed());
     EXPECT_EQ(verdict.first->pose, 2U);
     EXPECT_THAT(verdict.first->text, HasSubstr("triangle 42 at pixel 3,4"));
@@ -129,7 +129,7 @@ TEST(CompareJudge, AFragmentWithoutAReasonIsADisagreement) {
 
 TEST(CompareJudge, NoFragmentIsNotChecked) {
     const std::vector<FragmentCheck> checks{{.pose = 1}, {.pose = 2}};
-    const Verdict verdict = lab::judgeFragments(checks);
+    const CompareVerdict verdict = lab::judgeFragments(checks);
     EXPECT_FALSE(verdict.failed());
     EXPECT_NE(verdict.unchecked, "");
     const std::vector<FragmentCheck> lost{{.pose = 1, .counted = 3}};
@@ -139,7 +139,7 @@ TEST(CompareJudge, NoFragmentIsNotChecked) {
 TEST(CompareJudge, AListThatIsNotWhatWasCountedIsADisagreement) {
     std::vector<FragmentCheck> checks{checkOf(5, {})};
     checks[0].counted = 101;
-    const Verdict verdict = lab::judgeFragments(checks);
+    const CompareVerdict verdict = lab::judgeFragments(checks);
     ASSERT_TRUE(verdict.failed());
     EXPECT_EQ(verdict.first->pose, 5U);
     EXPECT_EQ(verdict.first->text, "the device lists 100 fragments and counts 101");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What compare --localize and bench --certified make of answers that differ.
-#include "lab/bench/parts.h"
-#include "lab/compare/localize.h"
+#include "bench/compare/localize.h"
+#include "bench/engine_bench/parts.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What bench --latency makes of ticks: who must answer what, the way of the mesh, the quantiles.
-#include "lab/bench/parts.h"
-#include "lab/measure/numbers.h"
-#include "lab/measure/poses.h"
+#include "bench/engine_bench/parts.h"
+#include "bench/measure/numbers.h"
+#include "cli/make/poses.h"
 #include "support/scenes.h"
 #include "voxtact/samples.h"
 
@@ -30,8 +30,7 @@ PairAnswer answer(std::uint64_t count, CountingMethod method, bool possible = fa
 }
 
 EngineFacts facts(const char* name, const char* question, bool certified) {
-    return {
-        .name = name, .projection = certified ? "conservative" : "view", .question = question, .certified = certified};
+    return {.name = name, .projection = certified ? "certified" : "view", .question = question, .certified = certified};
 }
 
 PoseTruth truth(std::uint64_t certified, std::uint64_t view, bool possible = false) {
@@ -43,13 +42,13 @@ TEST(TickJudgeTest, CertifiedAnswersAreTheHosts) {
     EXPECT_EQ(judgePose(facts("compute", "count", true), answer(3, CountingMethod::Compute), must), "");
     EXPECT_EQ(judgePose(facts("compute", "yes/no", true), answer(1, CountingMethod::Compute), must), "");
     EXPECT_EQ(judgePose(facts("compute", "count", true), answer(2, CountingMethod::Compute), must),
-              "compute conservative count says 2, it must be 3");
+              "compute certified count says 2, it must be 3");
     EXPECT_EQ(judgePose(facts("compute", "yes/no", true), answer(3, CountingMethod::Compute), must),
-              "compute conservative yes/no says 3, it must be 1");
+              "compute certified yes/no says 3, it must be 1");
     PoseTruth perhaps = truth(0, 0, true);
     EXPECT_EQ(judgePose(facts("cpu", "yes/no", true), answer(0, CountingMethod::Cpu, true), perhaps), "");
     EXPECT_EQ(judgePose(facts("cpu", "yes/no", true), answer(0, CountingMethod::Cpu), perhaps),
-              "cpu conservative yes/no says 0, it must be possible");
+              "cpu certified yes/no says 0, it must be possible");
 }
 
 TEST(TickJudgeTest, ACountThatIsALowerBoundIsComparedAllTheSame) {
@@ -108,11 +107,11 @@ TEST(MovingPosesTest, StrokesGoInAndOutWithoutAJump) {
     };
     // What touches is a ball of 20 voxels, as far as its middle's distance from the mesh's tells.
     const auto touches = [&](const Mat4& pose) -> Result<bool> { return away(pose) < 20; };
-    const auto poses = lab::movingPoses(grid, mesh.view(), 3 * lab::kTicksPerStroke + 7, 3, touches);
+    const auto poses = movingPoses(grid, mesh.view(), 3 * kTicksPerStroke + 7, 3, touches);
     ASSERT_TRUE(poses.ok()) << poses.error().text;
-    ASSERT_EQ(poses->size(), 3U * lab::kTicksPerStroke + 7);
+    ASSERT_EQ(poses->size(), 3U * kTicksPerStroke + 7);
     for (std::uint32_t stroke = 0; stroke < 3; ++stroke) {
-        const auto at = [&](std::uint32_t tick) { return away((*poses)[stroke * lab::kTicksPerStroke + tick]); };
+        const auto at = [&](std::uint32_t tick) { return away((*poses)[stroke * kTicksPerStroke + tick]); };
         EXPECT_NEAR(at(0) - at(125), 12, 1e-9) << "from 10 voxels outside of the onset to 2 inside";
         EXPECT_LT(at(125), 20) << "it touches there";
         EXPECT_GT(at(0), 20);
@@ -124,7 +123,7 @@ TEST(MovingPosesTest, StrokesGoInAndOutWithoutAJump) {
         const Vec3 other = transformPoint((*poses)[i], {0, 0, 0});
         EXPECT_LT(std::hypot(one[0] - other[0], one[1] - other[1], one[2] - other[2]), 0.3) << "tick " << i;
     }
-    EXPECT_FALSE(lab::movingPoses(grid, mesh.view(), 10, 3, [](const Mat4&) { return Result<bool>(false); }).ok());
+    EXPECT_FALSE(movingPoses(grid, mesh.view(), 10, 3, [](const Mat4&) { return Result<bool>(false); }).ok());
 }
 
 TEST(QuantileTest, AreBetweenTheNearestRanks) {
@@ -178,7 +177,7 @@ TEST(LatencyOutputTest, SentencesSayOfHowManyTicksTheyAre) {
     EXPECT_THAT(out.str(), HasSubstr("cpu on 1 thread: p50 5.00 us, p99 5.00 us (500 ticks, 258 of them touch); "
                                      "compute, polled, recorded once: p50 5.00 us (10 ticks, 0 of them touch)"));
     EXPECT_THAT(out.str(), HasSubstr("no tick of these touches"));
-    EXPECT_THAT(out.str(), HasSubstr("all no: compute, polled, recorded once (conservative count)\""));
+    EXPECT_THAT(out.str(), HasSubstr("all no: compute, polled, recorded once (certified count)\""));
     result.rows[1].touching = 3;
     std::ostringstream other;
     writeBench(other, io::Format::Json, {.mode = BenchMode::Latency, .number = 500}, result);

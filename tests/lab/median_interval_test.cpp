@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Where the median of a distribution is, from samples: the sign test, with binomial numbers worked out by hand.
-#include "lab/measure/numbers.h"
+#include "bench/measure/numbers.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // OBB trees: what the boxes hold, what the descent keeps, and meshes that have no directions of their own.
+#include "bench/engines/obb_tree.h"
 #include "core/geometry/mesh_vertex.h"
-#include "lab/engines/obb_tree.h"
 #include "support/scenes.h"
 #include "voxtact/samples.h"
 

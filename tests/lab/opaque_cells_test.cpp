@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The cubes that an octree has of a volume: where they are, and what they say.
-#include "lab/engines/opaque_cells.h"
+#include "bench/engines/opaque_cells.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What voxtact bench --paper says, of made-up measurements.
-#include "lab/measure/numbers.h"
-#include "lab/paper/paper.h"
+#include "bench/measure/numbers.h"
+#include "bench/paper/paper.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // How things are timed: in which order, how often, and what ends it.
-#include "gpu/timestamps.h"
-#include "lab/compare/compare.h"
-#include "lab/measure/rounds.h"
+#include "bench/compare/compare.h"
+#include "bench/measure/rounds.h"
+#include "vulkan/timestamps.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

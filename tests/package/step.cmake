@@ -28,7 +28,8 @@ endmacro()
 
 # What the examples print: of 4 mm of the plate, 32 pixels, 24 are in the opaque half.
 set(embed_prints "^hit 1, 768 fragments, method query\n$")
-set(embed_c_prints "^hit 1, 768 fragments, method cpu\nhit 1, 768 fragments, method query\n$")
+set(embed_c_prints
+    "^touch 1, 768 fragments, method cpu\ndistance 0 to 0 mm\ntouch 1, 768 fragments, method query\n$")
 
 # run_consumers(FOLDER): the programs of consumer/ that need nothing but the library.
 macro(run_consumers folder)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# NM, KIND (static or shared), STAGE: an install tree. No vk* symbol is defined or needed by the library, and shared ones
+# NM, READELF, KIND (static or shared), STAGE: an install tree. No vk* symbol is defined or needed by the library, and shared ones
 # export what the installed headers declare, and nothing else.
 cmake_minimum_required(VERSION 3.22)
 include("${CMAKE_CURRENT_LIST_DIR}/step.cmake")
@@ -26,6 +26,15 @@ endif()
 string(REGEX MATCHALL " [A-Za-z] vk[A-Za-z0-9]+" vulkan "${step_output}")
 if(vulkan)
   message(FATAL_ERROR "${library} has Vulkan's names: ${vulkan}")
+endif()
+
+if(KIND STREQUAL "static")
+  # What a plugin is linked with it does not export.
+  step("${READELF}" -sW "${library}")
+  string(REGEX MATCHALL "(GLOBAL|WEAK) +DEFAULT +[0-9]+ _Z[A-Z]*7voxtact[^\n]*" shown "${step_output}")
+  if(shown)
+    message(SEND_ERROR "${library} is static, and shows ${shown}")
+  endif()
 endif()
 
 if(KIND STREQUAL "shared")

@@ -44,7 +44,7 @@ def cube(size=2.0):
     corners = np.array([[x, y, z] for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)], dtype=np.float32) * size / 2
     faces = [[0, 2, 1], [1, 2, 3], [4, 5, 6], [5, 7, 6], [0, 1, 4], [1, 5, 4], [2, 6, 3], [3, 6, 7], [0, 4, 2],
              [2, 4, 6], [1, 3, 5], [3, 7, 5]]
-    return vx.read_mesh((corners, np.array(faces)))
+    return vx.read_mesh((corners, np.array(faces)), space="lps")
 
 
 def half_space(dtype=np.uint8, shape=(8, 10, 12), value=200):
@@ -74,7 +74,7 @@ def noise(dtype=np.int16, shape=(14, 18, 22), seed=2):
 def answers(volume):
     """Counts that tell one volume from another."""
     scene = vx.Scene(volume, opacity=[(90, 0), (110, 1)])
-    return scene.detect(cube(5), random_poses(80, 21, reach=25)).count
+    return scene.count(cube(5), random_poses(80, 21, reach=25)).count
 
 
 @pytest.fixture(scope="session")

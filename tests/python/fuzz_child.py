@@ -103,7 +103,7 @@ ANYTHING = (an_array, an_array, an_array, a_list,
             lambda: dice.choice((0.0, -0.0, 0.5, 1.5, -1.0, 1e-300, 1e300, np.nan, np.inf, -np.inf, np.float32(2), np.int64(-3))))
 
 HEAD = vx.read_volume("builtin:head:16")
-BLOCKS = vx.read_volume((np.indices(HEAD.shape).sum(0) // 9 % 4).astype(np.uint8), affine=HEAD.affine)
+BLOCKS = vx.read_volume((np.indices(HEAD.shape).sum(0) // 9 % 4).astype(np.uint8), axes="zyx", affine=HEAD.affine)
 LABELS = vx.read_labels(BLOCKS, names={1: "one", 2: "two"})
 KNIFE = vx.read_mesh("builtin:scalpel:300")
 SCENE = vx.Scene(HEAD, opacity=[(40, 0), (80, 1)], labels=LABELS, threads=2)
@@ -111,7 +111,7 @@ CLOSED = vx.Scene(HEAD)
 CLOSED.close()
 POSES = np.tile(np.eye(4), (3, 1, 1))
 POSES[:, 2, 3] = 0, 40, 200
-OBJECTS = (HEAD, LABELS, KNIFE, SCENE, CLOSED, SCENE.detect(KNIFE, POSES), SCENE.clearance(KNIFE, POSES), SCENE.tracker(KNIFE),
+OBJECTS = (HEAD, LABELS, KNIFE, SCENE, CLOSED, SCENE.count(KNIFE, POSES), SCENE.distance(KNIFE, POSES), SCENE.touch(KNIFE, POSES), SCENE.overlap(KNIFE, POSES), SCENE.tracker(KNIFE),
            SCENE.motion(KNIFE, POSES), SCENE.plan((0, 0, 0), avoid=[1], entries=12))
 
 #: What each parameter is called, and what is good for it.
@@ -119,14 +119,14 @@ GOOD = {
     "mesh": (KNIFE,), "poses": (POSES, np.eye(4)), "pose": (np.eye(4),), "progress": (None, lambda *_: None), "volume": (HEAD,),
     "opacity": ([(40, 0), (80, 1)], "40:0,80:1", None), "threshold": (0.1,), "labels": (None, LABELS, [1, 2], True), "threads": (0, 1),
     "device": (None,), "target": ((0.0, 0.0, 0.0),), "avoid": ([1], ["two"]), "entries": (12, 42), "tolerance": (0.1,), "margin": (1.0,),
-    "distance": (1.0,), "angle": (2.0,), "maximum": (10.0,), "source": (HEAD, (KNIFE.vertices, KNIFE.faces), KNIFE), "affine": (np.eye(4),),
+    "uncertainty": ((1.0, 2.0),), "bands": ([20.0, 80.0],), "max": (10.0,), "source": (HEAD, (KNIFE.vertices, KNIFE.faces), KNIFE), "affine": (np.eye(4),),
     "space": ("lps", "ras"), "axes": ("zyx", "xyz"), "first": (np.eye(4),), "second": (POSES[1],), "at": (0.5, (1, 2, 3)),
     "ball": ((0, 0, 0, 5),), "box": ((0, 0, 0, 2, 2, 2),), "value": (7,), "voxels": (np.zeros((2, 2, 2), np.uint8),), "points": (np.zeros((2, 3)),),
     "domain": (None, (0, 255)), "table_size": (256,), "row": (0,), "resolution": (0.5,), "picture": (np.zeros((2, 2, 4), np.uint8),),
     "size": ((8, 8),), "needle": ((2.0, 50.0),), "entry_radius": (40.0,), "tip": ((0, 0, 0),), "axis": ((0, 0, 1),), "array": (np.zeros((2, 2, 2)),),
 }
 #: Nothing of these is drawn: a callback's work is its own, and a good number would only take long.
-LEFT_OUT = {"most_steps"}
+LEFT_OUT = {"max_steps"}
 #: They would open windows or look for devices.
 NOT_CALLED = {"plot", "picture", "devices", "Device", "DeviceInfo", "close"}
 

@@ -9,18 +9,20 @@ import numpy as np
 import pytest
 
 import voxtact as vx
-from conftest import placed, random_poses
+from conftest import noise, oblique, placed, random_poses
 
 WAYS = [lambda of: pickle.loads(pickle.dumps(of)), copy.copy, copy.deepcopy]
 #: Of each kind, all that is known of it.
 MEMBERS = {
-    vx.Answer: ("hit", "possible", "count", "exact", "item", "pose", "device_seconds", "seconds", "method", "projection",
+    vx.Touch: ("touches", "undecided", "item", "pose", "device_seconds", "seconds", "method", "witness"),
+    vx.Count: ("touches", "undecided", "count", "count_exact", "item", "pose", "device_seconds", "seconds", "method", "projection",
                 "triangles", "contacts", "contacts_found", "bounds", "labels"),
-    vx.Clearance: ("lo", "hi", "end", "labels", "item", "pose", "seconds"),
-    vx.Area: ("lo", "hi", "end", "labels", "item", "pose", "seconds"),
-    vx.Motion: ("hit", "possible", "free_until", "touch_at", "touches", "end", "item", "pose", "seconds"),
-    vx.Plan: ("safe", "possible", "clearance", "entries", "paths", "best", "triangles", "triangle_safe",
-              "triangle_clearance", "area", "safe_area", "left_out", "seconds"),
+    vx.Distance: ("lower", "upper", "end", "labels", "item", "pose", "seconds"),
+    vx.Area: ("lower", "upper", "end", "labels", "item", "pose", "seconds"),
+    vx.Motion: ("touches", "undecided", "toi_lower", "toi_upper", "impacts", "end", "item", "pose", "seconds"),
+    vx.Overlap: ("lower", "upper", "end", "inside", "solid_lower", "solid_upper", "bands", "labels", "item", "pose", "seconds"),
+    vx.Plan: ("safe", "undecided", "distance", "entries", "paths", "best", "triangles", "triangle_safe",
+              "triangle_distance", "area", "safe_area", "left_out", "seconds"),
 }
 
 
@@ -32,11 +34,13 @@ def labelled(head):
 @pytest.fixture(scope="module")
 def answers(labelled, knife):
     poses = random_poses(6, 1, 100.0)
-    return [labelled.detect([(knife, poses[:4]), (knife, poses[4:])], triangles=True, contacts=True, bounds=True, labels=True),
-            labelled.clearance(knife, poses), labelled.clearance(knife, poses, labels=["Skull", 70]),
-            labelled.motion(knife, poses), labelled.plan((20, 0, 30), avoid=["Skull"], entries=100, triangle_clearances=True),
+    return [labelled.count([(knife, poses[:4]), (knife, poses[4:])], triangles=True, contacts=True, bounds=True, labels=True),
+            labelled.distance(knife, poses), labelled.distance(knife, poses, labels=["Skull", 70]),
+            labelled.motion(knife, poses), labelled.plan((20, 0, 30), avoid=["Skull"], entries=100, triangle_distances=True),
             labelled.area(knife, poses), labelled.area(knife, poses, labels=["Skull", 70]),
-            labelled.area(knife, poses, triangles=True)]
+            labelled.area(knife, poses, triangles=True), labelled.touch(knife, poses, witness=True, margin=5),
+            labelled.overlap(knife, poses), labelled.overlap(knife, poses, labels=["Skull", 70]),
+            labelled.overlap(knife, poses, bands=[20, 70])]
 
 
 def same(a, b):
@@ -51,7 +55,7 @@ def same(a, b):
 
 @pytest.mark.parametrize("way", WAYS, ids=["pickle", "copy", "deepcopy"])
 def test_a_copy_is_the_same(answers, way):
-    assert 0 < answers[0].hit.sum() < 6 and len(answers[0].contacts), "the poses say nothing"
+    assert 0 < answers[0].touches.sum() < 6 and len(answers[0].contacts), "the poses say nothing"
     for answer in answers:
         for found in (way(answer), way(way(answer))):
             assert type(found) is type(answer) and len(found) == len(answer) and repr(found) == repr(answer)
@@ -70,35 +74,35 @@ def test_a_copy_is_the_same(answers, way):
 
 def test_a_copy_has_what_was_looked_at_and_no_scene(scene, knife):
     poses = random_poses(6, 3, 60.0)
-    answer = scene.detect(knife, poses)
-    with pytest.raises(vx.NotReadyError, match=r"pickled or copied knows no scene: detect\(contacts=True\)"):
+    answer = scene.count(knife, poses)
+    with pytest.raises(vx.NotReadyError, match=r"pickled or copied answer has no scene: .*count\(contacts=True\)"):
         copy.copy(answer).contacts
     contacts = answer.contacts
     assert len(contacts)
     found = pickle.loads(pickle.dumps(answer))
     same(found.contacts, contacts)
     assert found.contacts_found == answer.contacts_found
-    with pytest.raises(vx.NotReadyError, match=r"detect\(bounds=True\)"):
+    with pytest.raises(vx.NotReadyError, match=r"count\(bounds=True\)"):
         found.bounds
-    with pytest.raises(vx.NotReadyError, match="nothing was counted"):
+    with pytest.raises(vx.NotReadyError, match="has no counters"):
         found.counters
     plan = scene.plan((20, 0, 30), avoid_opacity="100:0,160:1", entries=42)
-    with pytest.raises(vx.NotReadyError, match="triangle_clearances=True"):
-        copy.copy(plan).triangle_clearance
+    with pytest.raises(vx.NotReadyError, match="triangle_distances=True"):
+        copy.copy(plan).triangle_distance
 
 
 def test_a_deep_copy_keeps_its_numbers(scene, knife):
-    answer = scene.clearance(knife, placed((0, 0, 300)))
+    answer = scene.distance(knife, placed((0, 0, 300)))
     found = copy.deepcopy(answer)
-    before = float(answer.lo[0])
-    found.lo[0] = -1
-    assert answer.lo[0] == before
+    before = float(answer.lower[0])
+    found.lower[0] = -1
+    assert answer.lower[0] == before
 
 
 def work(number):
     scene = vx.Scene("builtin:head:16", opacity=[(40, 0), (80, 1)], threads=1)
     mesh, pose = vx.read_mesh("builtin:scalpel:300"), placed((0, 0, 50.0 + number), (0, 0, 80))
-    return scene.detect(mesh, pose), scene.clearance(mesh, pose), scene.motion(mesh, pose)
+    return scene.count(mesh, pose), scene.distance(mesh, pose), scene.motion(mesh, pose)
 
 
 def test_workers_can_return_them():
@@ -106,12 +110,13 @@ def test_workers_can_return_them():
         for number, (answer, left, way) in enumerate(workers.map(work, range(2))):
             here = work(number)
             same(answer.count, here[0].count)
-            same(left.lo, here[1].lo)
-            same(way.free_until, here[2].free_until)
+            same(left.lower, here[1].lower)
+            same(way.toi_lower, here[2].toi_lower)
 
 
 def test_none_is_true_or_false(answers):
-    asked = {vx.Answer: ".hit", vx.Clearance: ".lo and .hi", vx.Area: ".lo and .hi", vx.Motion: ".hit", vx.Plan: ".safe"}
+    asked = {vx.Count: ".touches", vx.Touch: ".touches", **dict.fromkeys((vx.Distance, vx.Area, vx.Overlap), ".lower and .upper"),
+             vx.Motion: ".touches", vx.Plan: ".safe"}
     for answer in [*answers, copy.copy(answers[0])]:
         with pytest.raises(TypeError) as caught:
             bool(answer)
@@ -121,17 +126,17 @@ def test_none_is_true_or_false(answers):
 
 def test_labels_that_no_voxel_has_are_warned_of(labelled, knife, recwarn):
     pose = placed((0, 0, 300))
-    labelled.clearance(knife, pose, labels=[0, 70, "Skull"])
-    labelled.clearance(knife, pose, labels=True)
+    labelled.distance(knife, pose, labels=[0, 70, "Skull"])
+    labelled.distance(knife, pose, labels=True)
     assert not recwarn.list
-    with pytest.warns(UserWarning, match="^labels: no voxel of the label map has the label 254; clearances to it are infinite$"):
-        left = labelled.clearance(knife, pose, labels=[254, 70, 254])
-    assert np.isinf(left.lo[0, 0]) and np.isfinite(left.lo[0, 1])
-    with pytest.warns(UserWarning, match="has the labels 253, 254; clearances to them are infinite") as caught:
-        labelled.clearance(knife, pose, labels=[254, 253], labels_at_any_opacity=True)
+    with pytest.warns(UserWarning, match="^labels: no voxel of the label map has the label 254; distances to it are infinite$"):
+        left = labelled.distance(knife, pose, labels=[254, 70, 254])
+    assert np.isinf(left.lower[0, 0]) and np.isfinite(left.lower[0, 1])
+    with pytest.warns(UserWarning, match="has the labels 253, 254; distances to them are infinite") as caught:
+        labelled.distance(knife, pose, labels=[254, 253], any_opacity=True)
     assert caught[0].filename == __file__
     with pytest.warns(UserWarning, match="^labels: no voxel of the label map has the label 254; areas in it are 0$") as caught:
-        assert labelled.area(knife, pose, labels=[254]).hi.tolist() == [[0]]
+        assert labelled.area(knife, pose, labels=[254]).upper.tolist() == [[0]]
     with pytest.warns(UserWarning, match="labels 300, 301, 302, 303, 304, 305, 306, 307, 308, 309 and 2 more; areas in them are 0$"):
         labelled.area(knife, pose, labels=range(300, 312))
     with pytest.warns(UserWarning, match="label 254; areas") as caught:
@@ -141,7 +146,22 @@ def test_labels_that_no_voxel_has_are_warned_of(labelled, knife, recwarn):
 
 @pytest.mark.parametrize("way", WAYS, ids=["pickle", "copy", "deepcopy"])
 def test_a_copy_says_what_the_answer_said_of_what_it_has_not(labelled, knife, way):
-    within = labelled.within(knife, np.eye(4), margin=1.0)
-    for answer in (within, way(within), way(way(within))):
-        with pytest.raises(vx.NotReadyError, match=r"answers of within\(\) and around\(\) have no triangles"):
-            answer.triangles
+    touch = labelled.touch(knife, np.eye(4), margin=1.0)
+    for answer in (touch, way(touch), way(way(touch))):
+        with pytest.raises(vx.NotReadyError, match=r"no witness points; ask with touch\(witness=True\)"):
+            answer.witness
+
+
+@pytest.mark.parametrize("way", WAYS, ids=["pickle", "copy", "deepcopy"])
+def test_a_copy_of_a_volume_and_a_mesh(head, knife, way):
+    sheared = np.eye(4)
+    sheared[0, 1] = 0.3
+    for volume in (head, vx.read_volume(noise(), affine=oblique()), vx.read_volume(noise(), affine=sheared)):
+        found = way(volume)
+        assert (found.name, found.notes) == (volume.name, volume.notes)
+        for name in ("array", "spacing", "origin", "direction", "affine", "range"):
+            same(np.asarray(getattr(found, name)), np.asarray(getattr(volume, name)))
+    found = way(knife)
+    assert (found.name, found.notes) == (knife.name, knife.notes)
+    same(found.vertices, knife.vertices)
+    same(found.faces, knife.faces)

@@ -19,7 +19,7 @@ def same_place(volume, expected):
 def nifti(request, tmp_path):
     path = tmp_path / "volume.nii.gz"
     if request.param == "oblique":
-        vx.read_volume(noise(), affine=oblique()).write(path)
+        vx.read_volume(noise(), axes="zyx", affine=oblique()).write(path)
     else:
         program("make", "volume", f"builtin:{request.param}:24", path, cwd=tmp_path)
     return path
@@ -161,17 +161,17 @@ class NamedArray:
 
 def test_named_dimensions():
     array = noise()
-    expected = vx.read_volume(array, affine=oblique())
+    expected = vx.read_volume(array, axes="zyx", affine=oblique())
     same_place(vx.read_volume(NamedArray(array, ("z", "y", "x")), affine=oblique()), expected)
     turned = vx.read_volume(NamedArray(np.ascontiguousarray(array.T), ("x", "y", "z")), affine=oblique())
     same_place(turned, expected)
     np.testing.assert_array_equal(turned.array, expected.array)
     same_place(vx.read_volume(NamedArray(np.ascontiguousarray(array.T), ("X", "Y", "Z")), affine=oblique()), expected)
-    same_place(vx.read_volume(NamedArray(array, ("slice", "row", "column")), affine=oblique()), expected)
+    same_place(vx.read_volume(NamedArray(array, ("slice", "row", "column")), axes="zyx", affine=oblique()), expected)
     for dims, axes in ((("z", "y", "x"), "xyz"), (("x", "y", "z"), "zyx"), (("time", "y", "x"), None), (("time", "y", "x"), "zyx")):
         with pytest.raises(vx.InvalidArgumentError, match="dimensions are"):
             vx.read_volume(NamedArray(array, dims), affine=oblique(), axes=axes)
-    np.testing.assert_array_equal(vx.read_volume(NamedArray(array, ("time", "row", "column")), affine=oblique()).array, array)
+    np.testing.assert_array_equal(vx.read_volume(NamedArray(array, ("time", "row", "column")), axes="zyx", affine=oblique()).array, array)
     with pytest.raises(vx.InvalidArgumentError, match=r"dimensions are \('y', 'z', 'x'\)"):
         vx.read_volume(NamedArray(array, ("y", "z", "x")), affine=oblique())
 
@@ -221,12 +221,12 @@ def test_dicom_by_pydicom(tmp_path):
     affine = np.eye(4)
     affine[:3, :3] = np.stack([rows * 0.5, columns * 1.5, normal * 2.5], axis=1)
     affine[:3, 3] = slices[0].ImagePositionPatient
-    volume = vx.read_volume(np.stack([one.pixel_array for one in slices]), affine=affine, space="lps")
+    volume = vx.read_volume(np.stack([one.pixel_array for one in slices]), axes="zyx", affine=affine, space="lps")
     same_place(volume, vx.read_volume(tmp_path))
 
 
 def test_files_of_all_formats(tmp_path):
-    expected = vx.read_volume(noise(), affine=oblique())
+    expected = vx.read_volume(noise(), axes="zyx", affine=oblique())
     for ending in ("nii", "nii.gz", "nrrd", "mha"):
         expected.write(tmp_path / f"volume.{ending}")
         same_place(vx.read_volume(os.fspath(tmp_path / f"volume.{ending}")), expected)
@@ -272,4 +272,4 @@ def test_vtk_with_scalars_of_another_size():
 @pytest.mark.parametrize("kind", ["?", "u1", "i2", "i4", "u4", "i8", "f2", "f4", "f8"])
 def test_empty(kind):
     with pytest.raises(vx.InvalidArgumentError, match="the image is empty"):
-        vx.read_volume(np.zeros((0, 3, 3), kind), affine=np.eye(4))
+        vx.read_volume(np.zeros((0, 3, 3), kind), axes="zyx", affine=np.eye(4))

@@ -33,19 +33,20 @@ def progress(done, of):
     if not begun.is_set():
         begun.set()
         press(0.05)
-more = {"around": {"distance": 1, "angle": 1}, "within": {"margin": 1}}.get(sys.argv[1], {})
+question, *more = sys.argv[1].split()
+more = {"uncertainty": {"uncertainty": (1, 1)}, "margin": {"margin": 1}}[more[0]] if more else {}
 try:
-    getattr(scene, sys.argv[1])(mesh, poses, progress=progress, **more)
+    getattr(scene, question)(mesh, poses, progress=progress, **more)
 except KeyboardInterrupt:
     print("interrupted after", now() - pressed)
-    print("still there:", len(scene.detect(mesh, np.eye(4))))
+    print("still there:", len(scene.count(mesh, np.eye(4))))
 """
 
 # One pose that takes seconds at the least: thousands of triangles right across voxels of which every other one is
 # opaque, or, for distances, a plate in the middle of a gap, all of it about as near.
 ALONE = BEGIN + """
 side = 96
-if sys.argv[1] in ("detect", "area"):
+if sys.argv[1] in ("count", "area"):
     x, y, z = np.meshgrid(*[np.arange(side)] * 3, indexing="ij")
     voxels = np.where((7 * x + 5 * y + 3 * z) % 4 < 2, 255, 0).astype(np.uint8)
     angle = np.linspace(0, 3, 20_000)
@@ -64,7 +65,7 @@ else:
     mesh = (plate, np.concatenate([np.stack([first, first + 1, first + n + 2], 1),
                                    np.stack([first, first + n + 2, first + n + 1], 1)]))
 mesh = vx.read_mesh(mesh)
-scene = vx.Scene(vx.read_volume(voxels, affine=np.eye(4), space="lps"), opacity=[(120, 0), (135, 1)])
+scene = vx.Scene(vx.read_volume(voxels, axes="zyx", affine=np.eye(4), space="lps"), opacity=[(120, 0), (135, 1)])
 # A quarter of a turn in the plane of the plate, less than a hundredth of a mm beside one side of the gap.
 middle = np.eye(4)
 middle[:3, 3] = 48, 48, 8.47
@@ -72,18 +73,18 @@ turn = np.array([[0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1.0]])
 back = np.eye(4)
 back[:2, 3] = -48
 poses = np.stack([middle @ back, middle @ turn @ back])
-ask = {"detect": lambda: scene.detect(mesh, np.eye(4)),
-       "clearance": lambda: scene.clearance(mesh, np.eye(4), tolerance=1e-6, most_steps=2**32 - 1),
-       "area": lambda: scene.area(mesh, np.eye(4), tolerance=1e-9, most_steps=2**32 - 1),
-       "motion": lambda: scene.motion(mesh, poses, resolution=1e-6, most_steps=2**32 - 1)}[sys.argv[1]]
-scene.detect(mesh, np.diag([1e-9, 1e-9, 1e-9, 1]))  # what is made once
+ask = {"count": lambda: scene.count(mesh, np.eye(4)),
+       "distance": lambda: scene.distance(mesh, np.eye(4), tolerance=1e-6, max_steps=2**32 - 1),
+       "area": lambda: scene.area(mesh, np.eye(4), tolerance=1e-9, max_steps=2**32 - 1),
+       "motion": lambda: scene.motion(mesh, poses, resolution=1e-6, max_steps=2**32 - 1)}[sys.argv[1]]
+scene.count(mesh, np.diag([1e-9, 1e-9, 1e-9, 1]))  # what is made once
 press(0.1)
 try:
     ask()
     print("done before it was interrupted")
 except KeyboardInterrupt:
     print("interrupted after", now() - pressed)
-    print("still there:", len(scene.detect(mesh, np.diag([1e-9, 1e-9, 1e-9, 1]))))
+    print("still there:", len(scene.count(mesh, np.diag([1e-9, 1e-9, 1e-9, 1]))))
 """
 
 PICTURE = BEGIN + """
@@ -106,12 +107,12 @@ def check(script, question=""):
     assert float(done.stdout.split()[2]) < 1, done.stdout
 
 
-@pytest.mark.parametrize("question", ["detect", "clearance", "area", "within", "motion", "around"])
+@pytest.mark.parametrize("question", ["touch", "count", "distance", "area", "overlap", "touch margin", "motion", "touch uncertainty"])
 def test_ctrl_c_stops_a_long_batch_within_a_second(question):
     check(BATCH, question)
 
 
-@pytest.mark.parametrize("question", ["detect", "clearance", "area", "motion"])
+@pytest.mark.parametrize("question", ["count", "distance", "area", "motion"])
 def test_ctrl_c_stops_a_long_pose_within_a_second(question):
     check(ALONE, question)
 
@@ -132,9 +133,9 @@ scene = vx.Scene("builtin:head:48", opacity=[(40, 0), (80, 1)], threads=1)
 mesh = vx.read_mesh("builtin:scalpel:500")
 poses = np.tile(np.eye(4), (3000, 1, 1))
 poses[:, :3, 3] = np.random.default_rng(1).uniform(-60, 60, (3000, 3))
-asks = {"detect": lambda: scene.detect(mesh, poses), "tells": lambda: scene.detect(mesh, poses, progress=lambda *_: None),
-        "sleeps": lambda: scene.detect(mesh, poses, progress=lambda *_: time.sleep(0.1)),
-        "clearance": lambda: scene.clearance(mesh, poses[:300]), "motion": lambda: scene.motion(mesh, poses[:30])}
+asks = {"count": lambda: scene.count(mesh, poses), "tells": lambda: scene.count(mesh, poses, progress=lambda *_: None),
+        "sleeps": lambda: scene.count(mesh, poses, progress=lambda *_: time.sleep(0.1)),
+        "distance": lambda: scene.distance(mesh, poses[:300]), "motion": lambda: scene.motion(mesh, poses[:30])}
 begun = threading.Event()
 def work():
     while True:
@@ -146,7 +147,7 @@ time.sleep(float(sys.argv[2]))
 """
 
 
-@pytest.mark.parametrize("what", ["detect", "tells", "sleeps", "clearance", "motion"])
+@pytest.mark.parametrize("what", ["count", "tells", "sleeps", "distance", "motion"])
 def test_a_script_ends_while_another_thread_is_in_a_call(what):
     for wait in (0.01, 0.07, 0.13):
         done = subprocess.run([sys.executable, "-c", LEFT_ALONE, what, str(wait)], capture_output=True, text=True,
@@ -159,13 +160,13 @@ LAST_CALLS = """
 import atexit, os, sys, threading, time
 import numpy as np
 def last():
-    print("last:", len(scene.detect(mesh, np.eye(4))))
+    print("last:", len(scene.count(mesh, np.eye(4))))
 atexit.register(last)
 import voxtact as vx
 scene = vx.Scene("builtin:head:48", opacity=[(40, 0), (80, 1)], threads=1)
 mesh = vx.read_mesh("builtin:scalpel:500")
 poses = np.tile(np.eye(4), (30_000, 1, 1))
-threading.Thread(target=lambda: scene.detect(mesh, poses), daemon=True).start()
+threading.Thread(target=lambda: scene.count(mesh, poses), daemon=True).start()
 time.sleep(0.05)
 sys.stdout.flush()
 child = os.fork()
@@ -193,7 +194,7 @@ def told(done, of):
     begun.set()
     time.sleep(0.05)
 def work():
-    answer = scene.detect(mesh, np.tile(np.eye(4), (20_000, 1, 1)), progress=told)
+    answer = scene.count(mesh, np.tile(np.eye(4), (20_000, 1, 1)), progress=told)
     print("answered:", len(answer), "after the end:", not threading.main_thread().is_alive())
 threading.Thread(target=work).start()
 begun.wait()

@@ -12,20 +12,37 @@ CORNERS = np.array([[0, 0, 0], [1, 0, 0], [0, 2, 0], [1, 2, 3.5]])
 
 def test_arrays():
     mesh = vx.read_mesh((CORNERS, TRIANGLES))
-    assert mesh.vertices.dtype == np.float32 and mesh.faces.dtype == np.uint32 and mesh.notes == ()
+    assert mesh.vertices.dtype == np.float64 and mesh.faces.dtype == np.uint32 and mesh.notes == ()
     np.testing.assert_array_equal(mesh.vertices, CORNERS)
     np.testing.assert_array_equal(mesh.faces, TRIANGLES)
     assert not mesh.vertices.flags.writeable and not mesh.faces.flags.writeable
     np.testing.assert_array_equal(mesh.bounds, [[0, 0, 0], [1, 2, 3.5]])
     np.testing.assert_array_equal(vx.read_mesh((CORNERS.tolist(), TRIANGLES.tolist())).faces, TRIANGLES)
     np.testing.assert_array_equal(vx.read_mesh((np.asfortranarray(CORNERS), TRIANGLES[::-1])).faces, TRIANGLES[::-1])
-    assert "rounded" in vx.read_mesh((CORNERS + 0.1, TRIANGLES)).notes[0]
+    for given in (CORNERS + 0.1, (CORNERS + 0.1).astype(np.float32), CORNERS + 4500000.2):
+        mesh = vx.read_mesh((given, TRIANGLES))
+        assert mesh.notes == ()
+        np.testing.assert_array_equal(mesh.vertices, given)
+    assert "rounded by up to 0.00" in vx.read_mesh((CORNERS * 100000.1, TRIANGLES)).notes[0]
+
+
+def test_far_from_the_origin():
+    """Map coordinates, which no float32 holds: the distance is that of the vertices as they are given."""
+    corners = np.array([[500008.9, 4649781.2, 1005.2], [500008.9, 4649784.2, 1005.2], [500008.9, 4649781.2, 1008.2]])
+    pose = np.eye(4)
+    pose[:3, 3] = -500000, -4649776, -1000
+    voxels = np.zeros((20, 20, 20), dtype=np.uint8)
+    voxels[10:] = 100
+    volume = vx.read_volume(voxels, affine=np.eye(4), space="lps")
+    scene = vx.Scene(volume, opacity=[(0, 0), (100, 1)], threshold=0.1)
+    found = scene.distance(vx.read_mesh((corners, [[0, 1, 2]])), pose)
+    assert found.lower[0] <= 0.2 <= found.upper[0] and found.upper[0] - found.lower[0] <= 1e-3
 
 
 def test_space_and_scale():
     mesh = vx.read_mesh((CORNERS, TRIANGLES), space="ras", scale=1000)
     np.testing.assert_array_equal(mesh.vertices, CORNERS * [-1000, -1000, 1000])
-    np.testing.assert_array_equal(vx.read_mesh(mesh, space="ras", scale=0.001).vertices, CORNERS.astype(np.float32))
+    np.testing.assert_array_equal(vx.read_mesh(mesh, space="ras", scale=0.001).vertices, CORNERS)
     assert vx.read_mesh(mesh) is mesh
 
 
@@ -50,7 +67,7 @@ def test_wrong_options_and_things():
         with pytest.raises(vx.InvalidArgumentError, match="scale"):
             vx.read_mesh((CORNERS, TRIANGLES), scale=scale)
     with pytest.raises(vx.InvalidArgumentError, match="space"):
-        vx.read_mesh((CORNERS, TRIANGLES), space="LPS")
+        vx.read_mesh((CORNERS, TRIANGLES), space="lpi")
     for thing in (3, object(), None, (1, 2, 3)):
         with pytest.raises(TypeError, match="no mesh can be made"):
             vx.read_mesh(thing)

@@ -18,8 +18,8 @@ from conftest import cube, half_space, placed, random_poses
 @pytest.mark.parametrize("poses", [np.zeros(16), np.zeros((3, 4)), np.zeros((2, 3, 3)), np.zeros((1, 1, 4, 4)), 3.0, [[]],
                                    np.zeros((4, 4, 5)), [[1, 2], [3, 4]]])
 def test_poses_of_another_shape(scene, knife, poses):
-    for ask in (scene.detect, scene.clearance, scene.motion, lambda *asked: scene.within(*asked, margin=1),
-                lambda *asked: scene.around(*asked, distance=1, angle=1)):
+    for ask in (scene.count, scene.distance, scene.motion, lambda *asked: scene.touch(*asked, margin=1),
+                lambda *asked: scene.touch(*asked, uncertainty=(1, 1))):
         with pytest.raises(vx.InvalidArgumentError, match=r"poses have the shape .*\(4,4\) or \(N,4,4\) is needed"):
             ask(knife, poses)
 
@@ -27,7 +27,7 @@ def test_poses_of_another_shape(scene, knife, poses):
 @pytest.mark.parametrize("poses", ["text", object(), [["a"] * 4] * 4, {"a": 1}])
 def test_poses_that_are_no_numbers(scene, knife, poses):
     with pytest.raises(TypeError):
-        scene.detect(knife, poses)
+        scene.count(knife, poses)
 
 
 @pytest.mark.parametrize("row, value, text", [(0, np.nan, "not finite"), (1, np.inf, "not finite"), (3, 0.5, "0 0 0 1")])
@@ -35,34 +35,34 @@ def test_poses_that_are_no_poses_are_named(scene, knife, row, value, text):
     poses = random_poses(5, 1)
     poses[3, row, 1] = value
     with pytest.raises(vx.InvalidArgumentError, match=f"pose 3.*{text}"):
-        scene.detect(knife, poses)
+        scene.count(knife, poses)
 
 
 def test_a_bad_pose_of_a_later_piece_is_named_by_its_own_number(head):
     poses = random_poses(100, 1)
     poses[97, 0, 0] = np.nan
     with pytest.raises(vx.InvalidArgumentError, match="pose 97"):
-        vx.Scene(head).detect(vx.read_mesh("builtin:ellipsoid:49998"), poses)
+        vx.Scene(head).count(vx.read_mesh("builtin:ellipsoid:49998"), poses)
 
 
 def test_things_that_are_no_meshes(scene):
     for thing in (None, "tool.stl", 3, (cube().vertices, cube().faces), [(1, 2)], [(cube(),)]):
         with pytest.raises(TypeError):
-            scene.detect(thing, np.eye(4) if not isinstance(thing, list) else None)
+            scene.count(thing, np.eye(4) if not isinstance(thing, list) else None)
     with pytest.raises(TypeError, match="poses are missing"):
-        scene.detect(cube())
+        scene.count(cube())
 
 
 def test_options_of_another_type(scene, knife, head):
-    for option, value in (("resolution", "fine"), ("samples_per_voxel", -1), ("most_contacts", 2**40), ("view", 3),
+    for option, value in (("resolution", "fine"), ("samples_per_voxel", -1), ("max_contacts", 2**40), ("view", 3),
                           ("projection", 3), ("max_depth", None)):
         try:
-            scene.detect(knife, np.eye(4), **{option: value})
+            scene.count(knife, np.eye(4), **{option: value})
         except (TypeError, RuntimeError, ValueError) as error:
             assert "Unable to cast" not in str(error), error
     for option, value in (("resolution", 0), ("resolution", np.nan), ("samples_per_voxel", 99), ("max_depth", -1)):
         with pytest.raises(vx.InvalidArgumentError):
-            scene.detect(knife, np.eye(4), contacts=True, projection="conservative" if option == "resolution" else
+            scene.count(knife, np.eye(4), contacts=True, projection="certified" if option == "resolution" else
                          "dominant-axis", **{option: value})
     with pytest.raises(vx.InvalidArgumentError, match="threshold"):
         vx.Scene(head, threshold=2)
@@ -70,8 +70,8 @@ def test_options_of_another_type(scene, knife, head):
         with pytest.raises((ValueError, TypeError)) as caught:
             vx.Scene(head, **wrong)
         assert "_core" not in str(caught.value), "no words of what is inside"
-    for ask in (lambda: scene.clearance(knife, np.eye(4), tolerance="fine"), lambda: scene.within(knife, np.eye(4), margin="2 mm"),
-                lambda: scene.clearance(knife, np.eye(4), most_steps=-1), lambda: scene.within(knife, np.eye(4), margin=-1)):
+    for ask in (lambda: scene.distance(knife, np.eye(4), tolerance="fine"), lambda: scene.touch(knife, np.eye(4), margin="2 mm"),
+                lambda: scene.distance(knife, np.eye(4), max_steps=-1), lambda: scene.touch(knife, np.eye(4), margin=-1)):
         with pytest.raises((ValueError, TypeError)) as caught:
             ask()
         assert "_core" not in str(caught.value)
@@ -84,18 +84,18 @@ def test_what_is_made_of_nothing():
     for thing in (vx.Volume, vx.Mesh):
         with pytest.raises(TypeError, match="makes"):
             thing()
-    for hollow in (vx.Volume, vx.Mesh, vx.Scene, vx.Labels, vx.Answer, vx.Clearance, vx.Motion, vx.Device):
+    for hollow in (vx.Volume, vx.Mesh, vx.Scene, vx.Labels, vx.Touch, vx.Count, vx.Distance, vx.Overlap, vx.Motion, vx.Device):
         with pytest.raises((AttributeError, TypeError)):
             repr(hollow.__new__(hollow))
     from voxtact import _core
 
-    for hollow in (_core.Scene, _core.Volume, _core.Mesh, _core.Answer, _core.Device):
+    for hollow in (_core.Scene, _core.Volume, _core.Mesh, _core.Tables, _core.Device):
         with pytest.raises(TypeError):
             hollow().revision
 
 
-def test_pickling_and_copying_are_refused_by_name(scene, knife, head):
-    for thing in (head, knife, scene, vx.read_labels(head)):
+def test_pickling_and_copying_are_refused_by_name(scene, head):
+    for thing in (scene, vx.read_labels(head)):
         for way in (pickle.dumps, copy.copy, copy.deepcopy):
             with pytest.raises(TypeError, match=f"voxtact.{type(thing).__name__} cannot be pickled"):
                 way(thing)
@@ -103,10 +103,10 @@ def test_pickling_and_copying_are_refused_by_name(scene, knife, head):
 
 def test_a_closed_scene(head, knife):
     with vx.Scene(head, opacity=[(40, 0), (80, 1)]) as scene:
-        answer = scene.detect(knife, np.eye(4))
+        answer = scene.count(knife, np.eye(4))
     scene.close()
     assert "closed" in repr(scene) and answer.count.shape == (1,)
-    for ask in (lambda: scene.detect(knife, np.eye(4)), lambda: scene.clearance(knife, np.eye(4)),
+    for ask in (lambda: scene.count(knife, np.eye(4)), lambda: scene.distance(knife, np.eye(4)),
                 lambda: scene.motion(knife, random_poses(2, 1)), lambda: scene.edit(ball=(0, 0, 0, 1), value=0), lambda: setattr(scene, "threshold", 0.2),
                 lambda: answer.contacts, lambda: scene.picture(knife)):
         with pytest.raises(vx.NotReadyError, match="closed"):
@@ -117,9 +117,9 @@ def test_a_closed_scene(head, knife):
 def test_arrays_outlive_what_they_came_from():
     def made():
         array = half_space()
-        scene = vx.Scene(vx.read_volume(array, affine=np.eye(4), space="lps"), opacity=[(99, 0), (101, 1)])
-        answer = scene.detect(cube(), placed((4, 4, 4), (9, 4, 4)))
-        return scene.volume.array, cube().vertices, answer.count, answer.contacts, scene.clearance(cube(), np.eye(4)).closest
+        scene = vx.Scene(vx.read_volume(array, axes="zyx", affine=np.eye(4), space="lps"), opacity=[(99, 0), (101, 1)])
+        answer = scene.count(cube(), placed((4, 4, 4), (9, 4, 4)))
+        return scene.volume.array, cube().vertices, answer.count, answer.contacts, scene.distance(cube(), np.eye(4)).closest
 
     arrays = made()
     gc.collect()
@@ -132,8 +132,8 @@ def test_arrays_outlive_what_they_came_from():
 
 def test_a_callback_that_uses_its_scene_is_refused(scene, knife):
     with pytest.raises(vx.NotReadyError, match="at work for this very thread"):
-        scene.detect(knife, random_poses(10, 2), progress=lambda *_: scene.detect(knife, np.eye(4)))
-    assert len(scene.detect(knife, np.eye(4))) == 1
+        scene.count(knife, random_poses(10, 2), progress=lambda *_: scene.count(knife, np.eye(4)))
+    assert len(scene.count(knife, np.eye(4))) == 1
 
 
 def test_a_callback_that_raises_ends_the_call(scene, knife):
@@ -143,10 +143,10 @@ def test_a_callback_that_raises_ends_the_call(scene, knife):
     def progress(done, of):
         raise Enough(f"{done} of {of}")
 
-    for ask in (scene.detect, scene.clearance):
+    for ask in (scene.count, scene.distance):
         with pytest.raises(Enough):
             ask(knife, random_poses(10, 2), progress=progress)
-    assert len(scene.detect(knife, np.eye(4))) == 1
+    assert len(scene.count(knife, np.eye(4))) == 1
 
 
 def test_threads(head, knife):
@@ -156,11 +156,11 @@ def test_threads(head, knife):
     mesh = vx.read_mesh("builtin:scalpel:302")  # nobody has used it yet
     expected, wrong = {}, []
     for one in (scene, other):
-        expected[one] = one.detect(vx.read_mesh("builtin:scalpel:302"), poses).count
+        expected[one] = one.count(vx.read_mesh("builtin:scalpel:302"), poses).count
 
     def ask(one):
         for _ in range(5):
-            if not np.array_equal(one.detect(mesh, poses).count, expected[one]):
+            if not np.array_equal(one.count(mesh, poses).count, expected[one]):
                 wrong.append(one)
             one.threshold = 0.1
 
@@ -176,7 +176,7 @@ def test_threads(head, knife):
 def test_a_scene_that_other_threads_close_and_drop(head, knife):
     """Threads that are in the middle of it get their answer, those that come later are told; nobody crashes or hangs."""
     poses = random_poses(60, 7)
-    expected = vx.Scene(head, opacity=[(40, 0), (80, 1)]).detect(knife, poses).count
+    expected = vx.Scene(head, opacity=[(40, 0), (80, 1)]).count(knife, poses).count
     for _ in range(5):
         shared = [vx.Scene(head, opacity=[(40, 0), (80, 1)])]
         tracker, wrong, told = shared[0].tracker(knife), [], []
@@ -188,8 +188,8 @@ def test_a_scene_that_other_threads_close_and_drop(head, knife):
                     if number == 0:
                         tracker.update(poses[0])
                     elif number == 1:
-                        scene.clearance(knife, poses[:1], tolerance=0.1)
-                    elif not np.array_equal(scene.detect(knife, poses).count, expected):
+                        scene.distance(knife, poses[:1], tolerance=0.1)
+                    elif not np.array_equal(scene.count(knife, poses).count, expected):
                         wrong.append(number)
             except (vx.NotReadyError, IndexError):
                 told.append(number)
@@ -234,12 +234,11 @@ def test_work_does_not_hold_the_interpreters_lock(scene, knife):
     thread = threading.Thread(target=count)
     thread.start()
     begin = time.perf_counter()
-    scene.clearance(knife, random_poses(300, 4), tolerance=1e-6)
+    scene.distance(knife, random_poses(300, 4), tolerance=1e-6)
     end = time.perf_counter()
     done.set()
     thread.join()
-    while_measuring = [at for at in counted if begin < at < end]
-    assert len(while_measuring) > (end - begin) / 0.05, (len(while_measuring), end - begin)
+    assert sum(begin < at < end for at in counted) > 3, (len(counted), end - begin)
 
 
 @pytest.mark.parametrize("number", range(3))
@@ -247,16 +246,16 @@ def test_a_fork_after_use(head, knife, number):
     """In a child the threads of its parent are not there: it gets its own. One that asks nothing just ends."""
     scene = vx.Scene(head, opacity=[(40, 0), (80, 1)])
     poses = random_poses(50, 5)
-    expected = scene.detect(knife, poses)
-    scene.clearance(knife, poses[:2])
+    expected = scene.count(knife, poses)
+    scene.distance(knife, poses[:2])
     scene.motion(knife, poses[:2], resolution=1)
     child = os.fork()
     if child == 0:
         status = 1
         try:
             if number == 0:
-                status = 0 if np.array_equal(scene.detect(knife, poses).count, expected.count) else 2
-                scene.clearance(knife, poses[:2])
+                status = 0 if np.array_equal(scene.count(knife, poses).count, expected.count) else 2
+                scene.distance(knife, poses[:2])
                 scene.motion(knife, poses[:2], resolution=1)
             elif number == 1:
                 scene.close()
@@ -265,7 +264,7 @@ def test_a_fork_after_use(head, knife, number):
                 status = 0
             else:
                 scene.opacity = [(100, 0), (200, 1)]
-                status = 0 if vx.Scene(head, opacity=[(40, 0), (80, 1)]).detect(knife, poses).hit.any() else 2
+                status = 0 if vx.Scene(head, opacity=[(40, 0), (80, 1)]).count(knife, poses).touches.any() else 2
         finally:
             os._exit(status)
     for _ in range(600):
@@ -278,7 +277,7 @@ def test_a_fork_after_use(head, knife, number):
         os.waitpid(child, 0)
         pytest.fail("the child hangs")
     assert os.waitstatus_to_exitcode(status) == 0
-    np.testing.assert_array_equal(scene.detect(knife, poses).count, expected.count)
+    np.testing.assert_array_equal(scene.count(knife, poses).count, expected.count)
 
 
 def test_errors_are_what_they_say():
@@ -308,32 +307,32 @@ def test_broken_files(tmp_path):
         vx.read_poses(tmp_path / "poses.txt")
 
 
-@pytest.mark.parametrize("ask", [lambda scene, *asked, **options: scene.detect(*asked, resolution=np.nan, **options),
-                                 lambda scene, *asked: scene.detect(*asked, max_depth=np.nan),
-                                 lambda scene, *asked: scene.clearance(*asked, tolerance=np.nan),
-                                 lambda scene, *asked: scene.clearance(*asked, maximum=np.nan),
+@pytest.mark.parametrize("ask", [lambda scene, *asked, **options: scene.count(*asked, resolution=np.nan, **options),
+                                 lambda scene, *asked: scene.count(*asked, max_depth=np.nan),
+                                 lambda scene, *asked: scene.distance(*asked, tolerance=np.nan),
+                                 lambda scene, *asked: scene.distance(*asked, max=np.nan),
                                  lambda scene, *asked: scene.motion(*asked, resolution=np.nan)])
 def test_nan_is_refused_each_time_and_changes_no_later_answer(head, knife, ask):
     poses = random_poses(20, 3)
     fresh = vx.Scene(head)
-    counts, lows = fresh.detect(knife, poses).count, fresh.clearance(knife, poses).lo
+    counts, lows = fresh.count(knife, poses).count, fresh.distance(knife, poses).lower
     assert counts.max() > 1
     scene = vx.Scene(head)
     for _ in range(2):
         with pytest.raises(vx.InvalidArgumentError, match="nan"):
             ask(scene, knife, poses)
-        scene.detect(knife, poses, yes_no=True)
-        answer = scene.detect(knife, poses)
-        assert (answer.count == counts).all() and answer.exact.any()
-        scene.clearance(knife, poses, maximum=1)
-        assert (scene.clearance(knife, poses).lo == lows).all()
-        assert len(scene.motion(knife, poses).hit) == len(poses) - 1
+        scene.touch(knife, poses)
+        answer = scene.count(knife, poses)
+        assert (answer.count == counts).all() and answer.count_exact.any()
+        scene.distance(knife, poses, max=1)
+        assert (scene.distance(knife, poses).lower == lows).all()
+        assert len(scene.motion(knife, poses).touches) == len(poses) - 1
 
 
 @pytest.mark.parametrize("view", [vx.View("x", 64, 64), vx.View([["a"] * 4] * 4, 64, 64), vx.View(object(), 64, 64)])
 def test_a_view_that_is_no_matrix(scene, knife, view):
     with pytest.raises((TypeError, ValueError), match="could not convert|float|number"):
-        scene.detect(knife, np.eye(4), projection="view", view=view)
+        scene.count(knife, np.eye(4), projection="view", view=view)
 
 
 def test_properties_while_another_thread_sets_them(head):
@@ -365,43 +364,43 @@ def test_properties_while_another_thread_sets_them(head):
 def test_labels_that_are_asked_for_twice_or_not_at_all(knife):
     voxels = np.zeros((20, 22, 24), np.uint8)
     voxels[5:15, 6:16, 7:17] = 200
-    labels = vx.read_labels((voxels > 0).astype(np.uint8) * 7, affine=np.eye(4), space="lps")
-    scene = vx.Scene(vx.read_volume(voxels, affine=np.eye(4), space="lps"), opacity=[(99, 0), (101, 1)], labels=labels)
+    labels = vx.read_labels((voxels > 0).astype(np.uint8) * 7, axes="zyx", affine=np.eye(4), space="lps")
+    scene = vx.Scene(vx.read_volume(voxels, axes="zyx", affine=np.eye(4), space="lps"), opacity=[(99, 0), (101, 1)], labels=labels)
     poses = placed((200, 10, 10), (0, 0, 300))
-    once = scene.clearance(knife, poses, labels=[7])
-    assert np.isfinite(once.lo).all()
-    often = scene.clearance(knife, poses, labels=[7, 0, 7])
-    assert (often.lo[:, 0] == once.lo[:, 0]).all() and (often.lo[:, 2] == once.lo[:, 0]).all()
-    none = scene.clearance(knife, poses, labels=[])
-    assert none.lo.shape == none.hi.shape == none.end.shape == (2, 0) and "2 poses to 0 labels" in repr(none)
+    once = scene.distance(knife, poses, labels=[7])
+    assert np.isfinite(once.lower).all()
+    often = scene.distance(knife, poses, labels=[7, 0, 7])
+    assert (often.lower[:, 0] == once.lower[:, 0]).all() and (often.lower[:, 2] == once.lower[:, 0]).all()
+    none = scene.distance(knife, poses, labels=[])
+    assert none.lower.shape == none.upper.shape == none.end.shape == (2, 0) and "2 poses to 0 labels" in repr(none)
     with pytest.raises(vx.NotReadyError):
         none.closest
 
 
 def test_arrays_that_are_none(scene, knife):
     ragged = [[1, 2], [3]]
-    for ask in (lambda: scene.detect(knife, ragged), lambda: vx.read_volume(ragged, affine=np.eye(4)),
-                lambda: vx.read_volume(np.zeros((2, 2, 2), np.uint8), affine=ragged),
+    for ask in (lambda: scene.count(knife, ragged), lambda: vx.read_volume(ragged, axes="zyx", affine=np.eye(4)),
+                lambda: vx.read_volume(np.zeros((2, 2, 2), np.uint8), axes="zyx", affine=ragged),
                 lambda: vx.read_mesh((ragged, [[0, 1, 2]])), lambda: vx.read_mesh((np.eye(3), ragged))):
         with pytest.raises(vx.InvalidArgumentError, match="rows differ in length"):
             ask()
     with pytest.raises(TypeError, match="numbers are needed"):
-        vx.read_volume(np.zeros((2, 2, 2), np.uint8), affine="x")
+        vx.read_volume(np.zeros((2, 2, 2), np.uint8), axes="zyx", affine="x")
     with pytest.raises(TypeError, match="affine has the type complex128"):
-        vx.read_volume(np.zeros((2, 2, 2), np.uint8), affine=np.eye(4) + 1j)
+        vx.read_volume(np.zeros((2, 2, 2), np.uint8), axes="zyx", affine=np.eye(4) + 1j)
     with pytest.raises(TypeError, match="what is no number"):
-        scene.detect(knife, np.array([[object()] * 4] * 4))
+        scene.count(knife, np.array([[object()] * 4] * 4))
     with pytest.raises(TypeError, match="avoid is a int; a sequence is needed"):
         scene.plan([[0, 0, 0]], avoid=70)
 
 
 def test_what_is_masked_has_no_value(scene, knife):
     voxels = np.ma.masked_array(np.zeros((2, 2, 2), np.uint8), mask=False)
-    vx.read_volume(voxels, affine=np.eye(4))
+    vx.read_volume(voxels, axes="zyx", affine=np.eye(4))
     voxels[0, 0, 0] = np.ma.masked
     poses = np.ma.masked_array(np.eye(4)[None], mask=np.eye(4)[None] > 0)
     corners = np.ma.masked_array(np.eye(3), mask=np.eye(3) > 0)
-    for ask in (lambda: vx.read_volume(voxels, affine=np.eye(4)), lambda: scene.detect(knife, poses),
+    for ask in (lambda: vx.read_volume(voxels, axes="zyx", affine=np.eye(4)), lambda: scene.count(knife, poses),
                 lambda: vx.read_mesh((corners, [[0, 1, 2]])), lambda: scene.edit(voxels=voxels, at=(0, 0, 0))):
         with pytest.raises(vx.InvalidArgumentError, match="is masked and has no value"):
             ask()

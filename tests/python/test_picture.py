@@ -71,7 +71,7 @@ def test_several_meshes_at_several_poses_are_the_programs(drawn, posed, tmp_path
 
 def test_chosen_triangles(drawn, knife):
     poses = placed((0, 0, 60), (40, -30, 20))
-    touching = drawn.detect(knife, poses, triangles=True).triangles
+    touching = drawn.count(knife, poses, triangles=True).triangles
     assert len(touching) and set(touching["pair"]) <= {0, 1}
     every = drawn.picture(knife, poses, size=SIZE, triangles=touching)
     np.testing.assert_array_equal(every, drawn.picture(knife, poses, size=SIZE, show="triangles"))
@@ -81,7 +81,7 @@ def test_chosen_triangles(drawn, knife):
     all_of_it = drawn.picture(knife, poses, size=SIZE, triangles=np.arange(len(knife.faces)), through=1)
     assert red(all_of_it).sum() > red(every).sum()
     two = [(knife, poses[:1]), (cube(20), poses[1:])]
-    rows = drawn.detect(two, triangles=True).triangles
+    rows = drawn.count(two, triangles=True).triangles
     np.testing.assert_array_equal(drawn.picture(two, size=SIZE, triangles=rows),
                                   drawn.picture(two, size=SIZE, show="triangles"))
     with pytest.raises(vx.InvalidArgumentError, match="2 meshes: give rows with pair"):
@@ -103,10 +103,10 @@ def test_a_view_from_a_side_is_the_pictures(drawn, knife, tmp_path):
     assert (view.width, view.height) == SIZE
     np.testing.assert_array_equal(drawn.picture(knife, pose, view=view), drawn.picture(knife, pose, view="left", size=SIZE))
     np.testing.assert_array_equal(vx.view_from((90, 0), head, knife, pose, size=SIZE).clip_from_world, view.clip_from_world)
-    counted = drawn.detect(knife, pose, projection="view", view=view).count[0]
+    counted = drawn.count(knife, pose, projection="view", view=view).count[0]
     painted = red(drawn.picture(knife, pose, view=view, through=1, show="contacts")).sum()
     assert counted > 0 and painted > 0
-    assert drawn.detect(knife, pose, projection="view", view=view).device_seconds >= 0
+    assert drawn.count(knife, pose, projection="view", view=view).device_seconds >= 0
     for wrong in ("above", (np.nan, 0)):
         with pytest.raises(vx.InvalidArgumentError, match="view"):
             vx.view_from(wrong, head)

@@ -16,7 +16,7 @@ def files(tmp_path_factory):
     volume = vx.read_volume(folder / "volume.nii.gz")
     blocks = np.zeros(volume.shape, dtype=np.uint8)
     blocks[12:20, 12:20, 6:12], blocks[20:25, 8:20, 12:20] = 3, 7
-    vx.read_volume(blocks, affine=volume.affine).write(folder / "labels.nii.gz")
+    vx.read_volume(blocks, axes="zyx", affine=volume.affine).write(folder / "labels.nii.gz")
     program("make", "mesh", "builtin:scalpel:100", "tool.stl", cwd=folder)
     return folder
 
@@ -32,19 +32,21 @@ def planned(files):
     (("--margin", 2, "--max-length", 90, "--max-angle", 40), {"margin": 2, "max_length": 90, "max_angle": 40}),
     (("--entry-radius", 60, "--mesh", "builtin:needle:1.5:90"), {"entry_radius": 60, "needle": (1.5, 90)}),
     (("--avoid-opacity", "150:0,160:1"), {"avoid_opacity": "150:0,160:1"}),
-    (("--mesh", "tool.stl", "--tip", "0,0,-90", "--axis", "0,0,1", "--max-clearance", 3),
-     {"mesh": "tool.stl", "tip": (0, 0, -90), "axis": (0, 0, 1), "maximum": 3}),
+    (("--mesh", "tool.stl", "--tip", "0,0,-90", "--axis", "0,0,1"),
+     {"mesh": "tool.stl", "tip": (0, 0, -90), "axis": (0, 0, 1), "max": 3}),
 ], ids=["label", "limits", "needle", "opacity", "mesh"])
 def test_plans_are_those_of_the_program(files, planned, ways):
     arguments, options = ways
+    options = {"max": 10, **options}
     rows = program("plan", "--volume", "volume.nii.gz", "--opacity", "40:0,80:1", "--labels", "labels.nii.gz", "--avoid",
-                   "3,7", "--target", ",".join(map(str, TARGET)), "--entries", 162, *arguments, cwd=files)
+                   "3,7", "--target", ",".join(map(str, TARGET)), "--entries", 162, "--max", options["max"],
+                   *arguments, cwd=files)
     options = {**options, "mesh": vx.read_mesh(files / options["mesh"])} if "mesh" in options else options
     found = planned.plan(TARGET, avoid=[3, 7], entries=162, **options)
     assert len(found) == len(rows) > 20
     assert found.paths["entry"].tolist() == [int(row["entry"]) for row in rows]
     assert found.paths["safety"].tolist() == [int(row["safe"]) for row in rows]
-    np.testing.assert_allclose(found.clearance, [[float(row["clearance_lo"]), float(row["clearance_hi"])] for row in rows],
+    np.testing.assert_allclose(found.distance, [[float(row["lower"]), float(row["upper"])] for row in rows],
                                atol=1e-6)
     np.testing.assert_allclose(found.entries, [[float(row[axis]) for axis in "xyz"] for row in rows], atol=1e-5)
     np.testing.assert_allclose(found.paths["length"], [float(row["length"]) for row in rows], atol=1e-5)
@@ -55,7 +57,7 @@ def test_plans_are_those_of_the_program(files, planned, ways):
 
 
 def test_entries_where_the_image_ends(files, planned):
-    full = vx.read_volume(np.full((9, 9, 9), 200, dtype=np.uint8), affine=np.eye(4), space="lps")
+    full = vx.read_volume(np.full((9, 9, 9), 200, dtype=np.uint8), axes="zyx", affine=np.eye(4), space="lps")
     cut = vx.Scene(full, opacity=[(99, 0), (101, 1)])
     wish = {"avoid_opacity": [(254, 0), (255, 1)], "entries": 162}
     with pytest.raises(vx.InvalidArgumentError, match="162 enter where the image ends"):
@@ -67,7 +69,8 @@ def test_entries_where_the_image_ends(files, planned):
 def test_a_heat_map_lies_over_the_image(files):
     nibabel = pytest.importorskip("nibabel")
     rows = program("plan", "--volume", "volume.nii.gz", "--opacity", "40:0,80:1", "--labels", "labels.nii.gz", "--avoid",
-                   "3,7", "--target", ",".join(map(str, TARGET)), "--entries", 2562, "--heat-map", "map.nii.gz", cwd=files)
+                   "3,7", "--target", ",".join(map(str, TARGET)), "--entries", 2562, "--max", 10, "--heat-map",
+                   "map.nii.gz", cwd=files)
     image = nibabel.load(files / "volume.nii.gz")
     heat = nibabel.load(files / "map.nii.gz")
     assert heat.shape == image.shape
@@ -81,7 +84,7 @@ def test_a_heat_map_lies_over_the_image(files):
     inside = ((at >= 0) & (at < heat.shape)).all(axis=1)
     there = values[tuple(at[inside].T)]
     assert inside.sum() > 2000 and (there >= 0).mean() > 0.95
-    assert (there <= np.array([float(row["clearance_hi"]) for row in rows])[inside]).all()
+    assert (there <= np.array([float(row["upper"]) for row in rows])[inside]).all()
 
 
 def ball_beside():
@@ -90,7 +93,7 @@ def ball_beside():
     ball = (x - 20) ** 2 + y**2 + z**2 <= 25
     affine = np.eye(4)
     affine[:3, 3] = -30
-    return vx.read_volume(np.where(ball, 200, 0).astype(np.uint8), affine=affine, space="lps")
+    return vx.read_volume(np.where(ball, 200, 0).astype(np.uint8), axes="zyx", affine=affine, space="lps")
 
 
 def test_a_ball_beside_the_way():
@@ -101,17 +104,17 @@ def test_a_ball_beside_the_way():
     assert not found.safe[towards > np.cos(np.arcsin(4 / 20))].any(), "straight into it"
     assert found.safe[towards < np.cos(np.arcsin(8.5 / 20))].all(), "far beside it"
     assert found.best is not None and found.safe[found.best]
-    assert found.paths["lo"][found.best] == found.paths["lo"][found.safe].max()
-    assert (found.paths["obstacle"][np.isfinite(found.paths["hi"])] == 1).all()
+    assert found.paths["lower"][found.best] == found.paths["lower"][found.safe].max()
+    assert (found.paths["obstacle"][np.isfinite(found.paths["upper"])] == 1).all()
     assert 0 < found.safe_area < found.area < 4 * np.pi * 28**2
     assert found.triangle_safe.any() and found.safe[found.triangles[found.triangle_safe]].all()
-    with pytest.raises(vx.NotReadyError, match="triangle_clearances=True"):
-        found.triangle_clearance
+    with pytest.raises(vx.NotReadyError, match="triangle_distances=True"):
+        found.triangle_distance
     more = scene.plan((0, 0, 0), avoid_opacity=[(99, 0), (101, 1)], entry_radius=28, entries=642, needle=(1, 40), margin=1,
-                      triangle_clearances=True)
-    keeps = more.triangle_clearance
+                      triangle_distances=True)
+    keeps = more.triangle_distance
     assert keeps.shape == (len(more.triangles),) and (keeps[more.triangle_safe] >= 1).all() and keeps.min() == 0
-    assert (keeps <= more.paths["hi"][more.triangles].min(axis=1)).all(), "no more than the worst of its corners"
+    assert (keeps <= more.paths["upper"][more.triangles].min(axis=1)).all(), "no more than the worst of its corners"
     assert repr(found).startswith(f"<voxtact.Plan: {found.safe.sum()} of 642 paths are safe")
 
     scene.edit(ball=(20, 0, 0, 9), value=0)
@@ -145,7 +148,7 @@ def test_labels_by_name(files):
     ({"avoid": [3], "needle": (float("inf"), float("inf"))}, "needle"),
     ({"avoid": [3], "entry_radius": 0}, "radius"),
     ({"avoid": [3], "tolerance": 0}, "tolerance"),
-    ({"avoid": [3], "maximum": 0}, "maximum"),
+    ({"avoid": [3], "max": 0}, "the max 0 mm"),
     ({"avoid": [3], "max_angle": 91}, "angle"),
 ])
 def test_wishes_that_make_no_sense(planned, knife, wish, said):

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Volumes from arrays and files, their edits, and what is opaque of them."""
+import errno
 import os
+import pathlib
 
 import numpy as np
 import pytest
@@ -12,31 +14,30 @@ from conftest import TURN, answers, cube, half_space, noise, oblique, placed, ra
 def test_an_array_is_not_copied():
     for dtype in (np.uint8, np.int16, np.uint16, np.float32):
         array = noise(dtype)
-        volume = vx.read_volume(array, affine=np.eye(4))
+        volume = vx.read_volume(array, axes="zyx", affine=np.eye(4))
         assert np.shares_memory(volume.array, array) and volume.notes == ()
         assert volume.dtype == dtype and volume.shape == (14, 18, 22)
         assert not volume.array.flags.writeable
         array.setflags(write=False)
-        assert np.shares_memory(vx.read_volume(array, affine=np.eye(4)).array, array)
+        assert np.shares_memory(vx.read_volume(array, axes="zyx", affine=np.eye(4)).array, array)
 
 
 def test_the_order_of_the_axes_is_said():
     array = noise()
-    expected = answers(vx.read_volume(array, affine=oblique()))
+    expected = answers(vx.read_volume(array, axes="zyx", affine=oblique()))
     assert 0 < (expected > 0).sum() < len(expected), "the poses say nothing"
     turned = np.ascontiguousarray(array.transpose(2, 1, 0))  # [x, y, z], C order
     as_nibabel = array.transpose(2, 1, 0)  # [x, y, z], Fortran order
-    with pytest.raises(vx.InvalidArgumentError, match="not in C order.*axes='xyz'.*axes='zyx'"):
-        vx.read_volume(as_nibabel, affine=oblique())
-    volume = vx.read_volume(as_nibabel, affine=oblique(), axes="xyz")
-    assert np.shares_memory(volume.array, array) and volume.notes == ()
-    np.testing.assert_array_equal(answers(volume), expected)
-    volume = vx.read_volume(turned, affine=oblique(), axes="xyz")
-    assert "voxels copied" in volume.notes[0]
-    np.testing.assert_array_equal(answers(volume), expected)
+    for axes in (None, "xyz"):  # whatever the order in memory
+        volume = vx.read_volume(as_nibabel, affine=oblique(), axes=axes)
+        assert np.shares_memory(volume.array, array) and volume.notes == ()
+        np.testing.assert_array_equal(answers(volume), expected)
+        volume = vx.read_volume(turned, affine=oblique(), axes=axes)
+        assert "voxels copied" in volume.notes[0]
+        np.testing.assert_array_equal(answers(volume), expected)
+    for same in (as_nibabel + 0, np.pad(as_nibabel, 0), as_nibabel.copy()):  # what numpy makes of it
+        np.testing.assert_array_equal(answers(vx.read_volume(same, affine=oblique())), expected)
     fortran = np.asfortranarray(array)  # [z, y, x], Fortran order
-    with pytest.raises(vx.InvalidArgumentError, match="axes="):
-        vx.read_volume(fortran, affine=oblique())
     np.testing.assert_array_equal(answers(vx.read_volume(fortran, affine=oblique(), axes="zyx")), expected)
     with pytest.raises(vx.InvalidArgumentError, match="axes='yxz'"):
         vx.read_volume(array, affine=np.eye(4), axes="yxz")
@@ -45,14 +46,14 @@ def test_the_order_of_the_axes_is_said():
 def test_strides_of_all_kinds():
     wide = noise(shape=(28, 18, 44))
     part = wide[::2, :, ::2]
-    volume = vx.read_volume(part, affine=oblique())
+    volume = vx.read_volume(part, axes="zyx", affine=oblique())
     assert "copied" in volume.notes[0]
     np.testing.assert_array_equal(volume.array, part)
-    np.testing.assert_array_equal(answers(volume), answers(vx.read_volume(part.copy(), affine=oblique())))
-    upside_down = vx.read_volume(noise()[::-1], affine=oblique())
+    np.testing.assert_array_equal(answers(volume), answers(vx.read_volume(part.copy(), axes="zyx", affine=oblique())))
+    upside_down = vx.read_volume(noise()[::-1], axes="zyx", affine=oblique())
     np.testing.assert_array_equal(upside_down.array, noise()[::-1])
     raw = np.frombuffer(b"\0" + noise().tobytes(), dtype=np.uint8)[1:].view(np.int16).reshape(14, 18, 22)
-    assert "not aligned" in vx.read_volume(raw, affine=np.eye(4)).notes[0]
+    assert "not aligned" in vx.read_volume(raw, axes="zyx", affine=np.eye(4)).notes[0]
 
 
 @pytest.mark.parametrize("dtype, stored", [("bool", "uint8"), ("int8", "int16"), ("int32", "int16"), ("uint32", "int16"),
@@ -60,7 +61,7 @@ def test_strides_of_all_kinds():
                                            (">i2", "int16"), (">f4", "float32")])
 def test_types_become_those_that_there_are(dtype, stored):
     array = (noise() % 2).astype(dtype)
-    volume = vx.read_volume(array, affine=np.eye(4))
+    volume = vx.read_volume(array, axes="zyx", affine=np.eye(4))
     assert volume.dtype == np.dtype(stored)
     np.testing.assert_array_equal(volume.array, array)
     assert dtype == "bool" or len(volume.notes) == 1
@@ -68,29 +69,30 @@ def test_types_become_those_that_there_are(dtype, stored):
 
 def test_whole_numbers_keep_their_values():
     large = np.full((2, 2, 2), 40000, dtype=np.int32)
-    assert vx.read_volume(large, affine=np.eye(4)).dtype == np.uint16
+    assert vx.read_volume(large, axes="zyx", affine=np.eye(4)).dtype == np.uint16
     large[0, 0, 0] = -1
-    assert vx.read_volume(large, affine=np.eye(4)).dtype == np.float32
+    assert vx.read_volume(large, axes="zyx", affine=np.eye(4)).dtype == np.float32
     large[0, 0, 0] = 2**24 + 1
     with pytest.raises(vx.InvalidArgumentError, match="fit neither"):
-        vx.read_volume(large, affine=np.eye(4))
+        vx.read_volume(large, axes="zyx", affine=np.eye(4))
     with pytest.raises(vx.InvalidArgumentError, match="too large for a float32"):
-        vx.read_volume(np.full((2, 2, 2), 1e300), affine=np.eye(4))
+        vx.read_volume(np.full((2, 2, 2), 1e300), axes="zyx", affine=np.eye(4))
     with pytest.raises(vx.InvalidArgumentError, match="complex128"):
-        vx.read_volume(np.zeros((2, 2, 2), dtype=complex), affine=np.eye(4))
+        vx.read_volume(np.zeros((2, 2, 2), dtype=complex), axes="zyx", affine=np.eye(4))
 
 
 def test_spaces():
     array = half_space()
-    lps = vx.read_volume(array, affine=np.eye(4), space="lps")
-    ras = vx.read_volume(array, affine=vx.LPS_FROM_RAS)
+    lps = vx.read_volume(array, axes="zyx", affine=np.eye(4), space="lps")
+    ras = vx.read_volume(array, axes="zyx", affine=vx.LPS_FROM_RAS)
     np.testing.assert_array_equal(ras.world_from_index, lps.world_from_index)
     np.testing.assert_array_equal(ras.affine, vx.LPS_FROM_RAS)
-    assert vx.read_volume(array, affine=oblique()).direction @ np.diag([1, 1, 1]) == pytest.approx(
+    assert vx.read_volume(array, axes="zyx", affine=oblique()).direction @ np.diag([1, 1, 1]) == pytest.approx(
         np.diag([-1, -1, 1]) @ TURN)
-    assert vx.read_volume(array, affine=oblique()).spacing == pytest.approx([0.7, 1.1, 2.3])
-    with pytest.raises(vx.InvalidArgumentError, match="space='RAS'"):
-        vx.read_volume(array, affine=np.eye(4), space="RAS")
+    assert vx.read_volume(array, axes="zyx", affine=oblique()).spacing == pytest.approx([0.7, 1.1, 2.3])
+    with pytest.raises(vx.InvalidArgumentError, match="space='sar'"):
+        vx.read_volume(array, axes="zyx", affine=np.eye(4), space="sar")
+    np.testing.assert_array_equal(vx.read_volume(array, affine=np.eye(4), space="RAS").affine, np.eye(4))
 
 
 @pytest.mark.parametrize("array, affine, text", [
@@ -107,7 +109,28 @@ def test_spaces():
 ])
 def test_what_is_wrong_is_named(array, affine, text):
     with pytest.raises(vx.InvalidArgumentError, match=text):
-        vx.read_volume(array, affine=affine)
+        vx.read_volume(array, axes="zyx", affine=affine)
+
+
+def test_an_array_of_it():
+    volume = vx.read_volume(noise(), affine=oblique(), axes="zyx")
+    assert np.shares_memory(np.asarray(volume), volume.array)
+    np.testing.assert_array_equal(np.asarray(volume, dtype=float), noise())
+    assert np.array(volume).flags.writeable and np.max(volume) == noise().max()
+
+
+def test_a_missing_file_is_the_one_of_python(tmp_path):
+    for ask in (lambda: vx.read_volume(tmp_path / "no.nii"), lambda: vx.read_mesh(tmp_path / "no.stl"),
+                lambda: vx.read_poses(tmp_path / "no.txt"), lambda: vx.read_label_names(tmp_path / "no.txt"),
+                lambda: vx.read_volume(noise(), affine=np.eye(4)).write(tmp_path / "no" / "no.nii")):
+        with pytest.raises(FileNotFoundError) as caught:
+            ask()
+        assert isinstance(caught.value, vx.FileError) and caught.value.errno == errno.ENOENT
+        assert pathlib.Path(caught.value.filename).name.startswith("no.") and caught.value.filename in str(caught.value)
+    (tmp_path / "half.nhdr").write_text("NRRD0004\ntype: uchar\ndimension: 3\nsizes: 2 2 2\nencoding: raw\ndata file: gone.raw\n")
+    with pytest.raises(vx.FileError) as caught:
+        vx.read_volume(tmp_path / "half.nhdr")
+    assert not isinstance(caught.value, FileNotFoundError) or caught.value.filename.endswith("gone.raw")
 
 
 def test_other_objects_are_refused_by_name():
@@ -123,17 +146,17 @@ def test_other_objects_are_refused_by_name():
 
 
 def test_edits(head, knife):
-    scene = vx.Scene(vx.read_volume(half_space(np.int16), affine=np.eye(4), space="lps"), opacity=[(99, 0), (101, 1)])
+    scene = vx.Scene(vx.read_volume(half_space(np.int16), axes="zyx", affine=np.eye(4), space="lps"), opacity=[(99, 0), (101, 1)])
     touching, free = placed((4, 4, 4)), placed((9, 4, 4))
-    assert scene.detect(cube(), touching).hit[0] and not scene.detect(cube(), free).hit[0]
+    assert scene.count(cube(), touching).touches[0] and not scene.count(cube(), free).touches[0]
     scene.edit(ball=(4, 4, 4, 3), value=-1000)
-    assert not scene.detect(cube(), touching).hit[0]
+    assert not scene.count(cube(), touching).touches[0]
     scene.edit(box=(8, 3, 3, 2, 2, 2), value=200)
-    assert scene.detect(cube(), free).hit[0]
+    assert scene.count(cube(), free).touches[0]
     scene.edit(at=(8, 3, 3), voxels=np.zeros((2, 2, 2)))
-    assert not scene.detect(cube(), free).hit[0]
+    assert not scene.count(cube(), free).touches[0]
     scene.edit(at=(0, 0, 0), voxels=np.ascontiguousarray(half_space(np.int16)))
-    assert scene.detect(cube(), touching).hit[0]
+    assert scene.count(cube(), touching).touches[0]
     assert (scene.volume.array == half_space()).all(), "the volume itself is not edited"
     for wrong, text in (({"ball": (1, 2, 3), "value": 1}, "four numbers"), ({"ball": (1, 2, 3, -4), "value": 1}, "radius"),
                         ({"ball": (1, 2, 3, 4), "value": 1.5}, "1.5"), ({"ball": (1, 2, 3, 4), "value": 40000}, "40000"),
@@ -148,15 +171,15 @@ def test_edits(head, knife):
 
 def test_opacity_and_threshold(scene, knife):
     poses = random_poses(30, 5)
-    before = scene.detect(knife, poses).count
+    before = scene.count(knife, poses).count
     scene.opacity = [(100, 0), (200, 1)]
-    after = scene.detect(knife, poses).count
+    after = scene.count(knife, poses).count
     assert (after <= before).all() and (after < before).any()
     np.testing.assert_array_equal(scene.opacity, [(100, 0), (200, 1)])
     scene.opacity = "40:0,80:1"
-    np.testing.assert_array_equal(scene.detect(knife, poses).count, before)
+    np.testing.assert_array_equal(scene.count(knife, poses).count, before)
     scene.threshold = 0.0
-    assert scene.detect(knife, poses).count.sum() > before.sum() and scene.threshold == 0
+    assert scene.count(knife, poses).count.sum() > before.sum() and scene.threshold == 0
     for wrong in (2, -1, float("nan")):
         with pytest.raises(vx.InvalidArgumentError, match="threshold"):
             scene.threshold = wrong
@@ -171,28 +194,28 @@ def test_words():
     assert repr(scene) == "<voxtact.Scene of 'ct', 32 x 32 x 11: opacity 0:0, 300:1, threshold 0.2, on the host>"
     assert "int16" in repr(scene.volume) and "mm" in repr(scene.volume) and scene.domain == (-1000, 2000)
     assert repr(cube()) == "<voxtact.Mesh 'arrays': 12 triangles, 8 vertices, 2 x 2 x 2 mm>"
-    answer = scene.detect(cube(150), placed((0, 0, 0), (500, 0, 0)))
-    assert repr(answer) == "<voxtact.Answer: 1 of 2 poses touch; conservative, cpu>"
-    assert repr(scene.clearance(cube(150), np.eye(4))).startswith("<voxtact.Clearance of 1 poses: the least is 0 to 0 mm")
+    answer = scene.count(cube(150), placed((0, 0, 0), (500, 0, 0)))
+    assert repr(answer) == "<voxtact.Count: 1 of 2 poses touch; certified, cpu>"
+    assert repr(scene.distance(cube(150), np.eye(4))).startswith("<voxtact.Distance of 1 poses: min 0 to 0 mm")
 
 
 def test_large_whole_numbers_are_not_rounded():
     for dtype, numbers in ((np.int64, [2**60 + 1, 2**60]), (np.uint64, [2**63, 2**63 + 1]), (np.int32, [2**24 + 1, 0]),
                            (np.int64, [-2**63, 1 - 2**63]), (np.uint64, [2**64 - 1, 0])):
         with pytest.raises(vx.InvalidArgumentError, match="exactly"):
-            vx.read_volume(np.array([[numbers]], dtype), affine=np.eye(4))
+            vx.read_volume(np.array([[numbers]], dtype), axes="zyx", affine=np.eye(4))
     for dtype, numbers in ((np.int64, [2**60, -2**63]), (np.uint64, [2**63, 2**24 - 1]), (np.int32, [2**24, -2**31])):
-        volume = vx.read_volume(np.array([[numbers]], dtype), affine=np.eye(4))
+        volume = vx.read_volume(np.array([[numbers]], dtype), axes="zyx", affine=np.eye(4))
         assert volume.dtype == np.float32 and [int(voxel) for voxel in volume.array[0, 0]] == numbers
 
 
 def test_edits_that_the_voxels_cannot_have():
-    floats = vx.Scene(vx.read_volume(np.zeros((2, 2, 2), np.float32), affine=np.eye(4)), opacity=[(0, 0), (1, 1)])
+    floats = vx.Scene(vx.read_volume(np.zeros((2, 2, 2), np.float32), axes="zyx", affine=np.eye(4)), opacity=[(0, 0), (1, 1)])
     floats.edit(at=(0, 0, 0), voxels=[[[0.1]]])
     for voxels in ([[[2**24 + 1]]], [[[np.inf]]], [[[1e300]]]):
         with pytest.raises(vx.InvalidArgumentError):
             floats.edit(at=(0, 0, 0), voxels=voxels)
-    bytes_ = vx.Scene(vx.read_volume(np.zeros((2, 2, 2), np.uint8), affine=np.eye(4)))
+    bytes_ = vx.Scene(vx.read_volume(np.zeros((2, 2, 2), np.uint8), axes="zyx", affine=np.eye(4)))
     for voxels in ([[[10**30]]], [[[256]]], [[[1.5]]], [[[np.nan]]], [[[-1]]]):
         with pytest.raises(vx.InvalidArgumentError):
             bytes_.edit(at=(0, 0, 0), voxels=voxels)
@@ -203,7 +226,7 @@ def test_edits_that_the_voxels_cannot_have():
 
 
 def test_edits_do_not_pile_up():
-    scene = vx.Scene(vx.read_volume(np.zeros((64, 64, 65), np.int16), affine=np.eye(4)), opacity=[(0, 0), (1, 1)])
+    scene = vx.Scene(vx.read_volume(np.zeros((64, 64, 65), np.int16), axes="zyx", affine=np.eye(4)), opacity=[(0, 0), (1, 1)])
     voxels = np.zeros((64, 64, 64), np.int16)
 
     def resident():
@@ -229,10 +252,10 @@ def test_paths_in_a_list(tmp_path):
     for affine in (None, np.eye(4)):
         for paths in (["a.dcm", "b.dcm"], [tmp_path / "a.dcm"], (b"a.dcm",)):
             with pytest.raises(TypeError, match="folder"):
-                vx.read_volume(paths, affine=affine)
+                vx.read_volume(paths, axes="zyx", affine=affine)
 
 
 @pytest.mark.filterwarnings("error")
 def test_an_affine_beyond_measure():
     with pytest.raises(vx.InvalidArgumentError):
-        vx.read_volume(noise(), affine=np.diag([1e200, 1, 1, 1]))
+        vx.read_volume(noise(), axes="zyx", affine=np.diag([1e200, 1, 1, 1]))

@@ -9,7 +9,7 @@
 namespace voxtact::test {
 
 vxt_grid cGrid(const Grid& grid) {
-    vxt_grid out = vxt_grid_init();
+    vxt_grid out = vxt_grid{};
     std::ranges::copy(grid.size, out.size);
     std::ranges::copy(grid.spacing, out.spacing);
     std::ranges::copy(grid.origin, out.origin);
@@ -18,7 +18,7 @@ vxt_grid cGrid(const Grid& grid) {
 }
 
 vxt_volume_view cVolume(const VolumeData& volume) {
-    vxt_volume_view out = vxt_volume_view_init();
+    vxt_volume_view out = sized<vxt_volume_view>();
     out.grid = cGrid(volume.grid);
     out.type = static_cast<vxt_scalar_type>(volume.type);
     out.voxels = volume.voxels.data();
@@ -27,7 +27,7 @@ vxt_volume_view cVolume(const VolumeData& volume) {
 }
 
 vxt_mesh_view cMesh(const MeshData& mesh) {
-    vxt_mesh_view out = vxt_mesh_view_init();
+    vxt_mesh_view out = sized<vxt_mesh_view>();
     out.positions = mesh.positions.data();
     out.vertex_count = mesh.positions.size() / 3;
     out.indices = mesh.indices.data();
@@ -53,7 +53,7 @@ std::vector<vxt_control_point> cPoints(const std::vector<ControlPoint>& points) 
 
 vxt_transfer_function_desc cFunction(const std::vector<vxt_control_point>& points, const ValueRange& domain,
                                      std::uint32_t tableSize) {
-    vxt_transfer_function_desc out = vxt_transfer_function_desc_init();
+    vxt_transfer_function_desc out = sized<vxt_transfer_function_desc>();
     out.points = points.data();
     out.point_count = points.size();
     out.domain = {domain.lo, domain.hi};
@@ -71,43 +71,68 @@ std::uint32_t cOutputs(const Outputs& outputs) {
 }
 
 Owned<vxt_answer> newAnswer() {
-    return made<vxt_answer>(vxt_answer_destroy, [](vxt_answer** out) { return vxt_answer_create(out); });
+    return made(vxt_answer_destroy, vxt_answer_create);
 }
 
 BatchAnswer answerOf(const vxt_answer& answer) {
-    vxt_answer_view view = vxt_answer_view_init();
-    need(vxt_answer_get(&answer, &view));
+    std::size_t read = 0;
+    const auto column = [&]<class T>(const char* table, const char* name, T) {
+        ++read;
+        return readColumn<T>(answer, table, name);
+    };
+    constexpr std::uint32_t kNumber = 0;
     BatchAnswer out;
-    for (const vxt_pair& pair : std::span(view.pairs, view.pair_count)) {
-        out.pairs.push_back({pair.pair, pair.item, pair.pose, pair.hit != 0, pair.possible != 0, pair.count,
-                             static_cast<Exactness>(pair.exactness), static_cast<CountingMethod>(pair.method),
-                             static_cast<Projection>(pair.projection)});
+    const auto items = column("pairs", "item", kNumber);
+    const auto poses = column("pairs", "pose", kNumber);
+    const auto touches = column("pairs", "touch", kNumber);
+    const auto exactnesses = column("pairs", "exactness", kNumber);
+    const auto methods = column("pairs", "method", kNumber);
+    const auto projections = column("pairs", "projection", kNumber);
+    const auto counts = column("pairs", "count", std::uint64_t{});
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        const auto touch = static_cast<Verdict>(touches[i]);
+        out.pairs.push_back({static_cast<std::uint32_t>(i), items[i], poses[i], touch == Verdict::Yes,
+                             touch == Verdict::Undecided, counts[i], static_cast<Exactness>(exactnesses[i]),
+                             static_cast<CountingMethod>(methods[i]), static_cast<Projection>(projections[i])});
     }
-    for (const vxt_touched_triangle& triangle : std::span(view.triangles, view.triangle_count)) {
-        out.triangles.push_back({triangle.pair, triangle.triangle, triangle.count});
+    const auto trianglePairs = column("triangles", "pair", kNumber);
+    const auto triangles = column("triangles", "triangle", kNumber);
+    const auto triangleCounts = column("triangles", "count", kNumber);
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        out.triangles.push_back({trianglePairs[i], triangles[i], triangleCounts[i]});
     }
-    for (const vxt_contact& c : std::span(view.contacts, view.contact_count)) {
-        EXPECT_EQ(c.reserved, 0U);
-        out.contacts.push_back({c.pair,
-                                c.triangle,
-                                {c.position[0], c.position[1], c.position[2]},
-                                {c.normal[0], c.normal[1], c.normal[2]},
-                                c.depth,
-                                c.value,
-                                c.opacity,
-                                c.label});
+    const auto contactPairs = column("contacts", "pair", kNumber);
+    const auto contactTriangles = column("contacts", "triangle", kNumber);
+    const auto positions = column("contacts", "position", Vec3{});
+    const auto normals = column("contacts", "normal", Vec3{});
+    const auto depths = column("contacts", "depth", 0.0);
+    const auto values = column("contacts", "value", 0.0);
+    const auto opacities = column("contacts", "opacity", 0.0);
+    const auto contactLabels = column("contacts", "label", std::int32_t{});
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        out.contacts.push_back({contactPairs[i], contactTriangles[i], positions[i], normals[i], depths[i], values[i],
+                                opacities[i], contactLabels[i]});
     }
-    for (const vxt_box& box : std::span(view.bounds, view.bounds_count)) {
-        const bool empty = box.lo[0] > box.hi[0];
-        out.bounds.push_back(empty ? std::optional<Box>()
-                                   : Box{{box.lo[0], box.lo[1], box.lo[2]}, {box.hi[0], box.hi[1], box.hi[2]}});
+    const auto lower = column("bounds", "lower", Vec3{});
+    const auto upper = column("bounds", "upper", Vec3{});
+    for (std::size_t i = 0; i < lower.size(); ++i) {
+        out.bounds.push_back(lower[i][0] > upper[i][0] ? std::optional<Box>() : Box{lower[i], upper[i]});
     }
-    for (const vxt_label_count& label : std::span(view.labels, view.label_count)) {
-        out.labels.push_back({label.pair, label.label, label.count});
+    const auto labelPairs = column("labels", "pair", kNumber);
+    const auto labels = column("labels", "label", std::int32_t{});
+    const auto labelCounts = column("labels", "count", std::uint64_t{});
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        out.labels.push_back({labelPairs[i], labels[i], labelCounts[i]});
     }
-    out.contactsFound = view.contacts_found;
-    out.gpuMilliseconds = view.gpu_milliseconds;
-    out.wallMilliseconds = view.wall_milliseconds;
+    const auto single = [&](const char* name, auto kind) {
+        const auto all = column("totals", name, kind);
+        EXPECT_EQ(all.size(), 1U) << name;
+        return all.empty() ? kind : all[0];
+    };
+    out.contactsFound = single("contacts_found", std::uint64_t{});
+    out.gpuMilliseconds = single("gpu_milliseconds", 0.0);
+    out.wallMilliseconds = single("wall_milliseconds", 0.0);
+    EXPECT_EQ(read, vxt_answer_columns(&answer)) << "columns that are not read here";
     return out;
 }
 

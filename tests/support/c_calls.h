@@ -6,6 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <concepts>
+#include <cstring>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -24,22 +27,35 @@ inline void need(vxt_result result) {
     }
 }
 
-/// The object that `make(&handle)` makes.
-template <class Handle, class Make> Owned<Handle> made(void (*destroy)(Handle*), Make&& make) {
+/// A struct that is all defaults.
+template <class T> [[nodiscard]] T sized() {
+    T out{};
+    out.struct_size = sizeof out;
+    return out;
+}
+
+/// Where an argument is, during the call.
+template <class T> const T* at(const T& argument) {
+    return &argument;
+}
+
+/// The object that `make(arguments..., &handle)` makes.
+template <class Handle, class Make, class... Arguments>
+Owned<Handle> made(void (*destroy)(Handle*), const Make& make, Arguments... arguments) {
     Handle* handle = nullptr;
-    need(make(&handle));
+    need(make(arguments..., &handle));
     EXPECT_NE(handle, nullptr);
     return {handle, destroy};
 }
 
 /// What the views of read or built data are, which must be there.
 [[nodiscard]] inline vxt_volume_view dataView(const Owned<vxt_volume_data>& data) {
-    vxt_volume_view view = vxt_volume_view_init();
+    vxt_volume_view view = sized<vxt_volume_view>();
     need(vxt_volume_data_view(data.get(), &view));
     return view;
 }
 [[nodiscard]] inline vxt_mesh_view dataView(const Owned<vxt_mesh_data>& data) {
-    vxt_mesh_view view = vxt_mesh_view_init();
+    vxt_mesh_view view = sized<vxt_mesh_view>();
     need(vxt_mesh_data_view(data.get(), &view));
     return view;
 }
@@ -54,7 +70,45 @@ template <class Handle, class Make> Owned<Handle> made(void (*destroy)(Handle*),
                                                    const ValueRange& domain, std::uint32_t tableSize);
 [[nodiscard]] std::uint32_t cOutputs(const Outputs& outputs);
 [[nodiscard]] Owned<vxt_answer> newAnswer();
-/// An answer as C++ has it.
+
+/// A column that must be there.
+[[nodiscard]] inline vxt_column findColumn(const vxt_answer& answer, const char* table, const char* name) {
+    vxt_column found = sized<vxt_column>();
+    need(vxt_answer_find(&answer, table, name, &found));
+    return found;
+}
+
+template <class T> struct CElement {
+    using Type = T;
+    static constexpr std::uint32_t kCount = 1;
+};
+template <class T, std::size_t size> struct CElement<std::array<T, size>> {
+    using Type = T;
+    static constexpr std::uint32_t kCount = size;
+};
+
+/// A column whose elements are `T`, a number or an array of numbers.
+template <class T>
+[[nodiscard]] std::vector<T> readColumn(const vxt_answer& answer, const char* table, const char* name) {
+    using Element = typename CElement<T>::Type;
+    constexpr vxt_type kType = std::same_as<Element, double>          ? VXT_TYPE_DOUBLE
+                               : std::same_as<Element, std::uint64_t> ? VXT_TYPE_UINT64
+                               : std::same_as<Element, std::int32_t>  ? VXT_TYPE_INT32
+                                                                      : VXT_TYPE_UINT32;
+    static_assert(kType != VXT_TYPE_UINT32 || std::same_as<Element, std::uint32_t>);
+    const vxt_column found = findColumn(answer, table, name);
+    if (found.type != kType || found.elements != CElement<T>::kCount || found.stride < sizeof(T) ||
+        (found.data == nullptr) != (found.rows == 0)) {
+        throw std::runtime_error(std::string("another kind of column: ") + table + " " + name);
+    }
+    std::vector<T> out(found.rows);
+    for (std::size_t row = 0; row < out.size(); ++row) {
+        std::memcpy(&out[row], static_cast<const std::byte*>(found.data) + row * found.stride, sizeof(T));
+    }
+    return out;
+}
+
+/// An answer about fragments as C++ has it.
 [[nodiscard]] BatchAnswer answerOf(const vxt_answer& answer);
 /// As differenceOf() of contact_scenes.h, and every member of the pairs too.
 [[nodiscard]] std::string wholeDifferenceOf(const BatchAnswer& a, const BatchAnswer& b);

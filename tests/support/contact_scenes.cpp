@@ -132,7 +132,7 @@ double distanceToTriangle(const ContactScene& scene, const Contact& contact) {
     Vec3 corners[3];
     for (std::size_t i = 0; i < 3; ++i) {
         const std::uint32_t vertex = scene.mesh.indices[std::size_t{3} * contact.triangle + i];
-        const float* at = scene.mesh.positions.data() + std::size_t{3} * vertex;
+        const double* at = scene.mesh.positions.data() + std::size_t{3} * vertex;
         corners[i] = transformPoint(scene.world_from_object, {at[0], at[1], at[2]});
     }
     return distanceToTriangle(contact.position, corners);

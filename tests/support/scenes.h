@@ -6,6 +6,8 @@
 #include <cstring>
 #include <functional>
 #include <random>
+#include <span>
+#include <vector>
 
 namespace voxtact::test {
 
@@ -35,6 +37,15 @@ VolumeData makeVolume(const Grid& grid, ScalarType type,
     return out;
 }
 VolumeData makeBytes(const Grid& grid, const std::function<double(std::uint32_t, std::uint32_t, std::uint32_t)>& value);
+
+/// Rounded, as buffers of the caller's have them.
+inline std::vector<float> floatsOf(std::span<const double> values) {
+    std::vector<float> out;
+    for (const double value : values) {
+        out.push_back(static_cast<float>(value));
+    }
+    return out;
+}
 
 /// The MR head of Debian's mricron-data, or what VOXTACT_TEST_HEAD names in its place.
 const char* headPath();

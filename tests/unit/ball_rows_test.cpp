@@ -201,7 +201,7 @@ TEST(BallRows, WhereDoublesCannotTellOneVoxelFromTheNext) {
     Tally tally;
     for (const double origin : {1e9, 1e11, -1e12}) {
         const double unit = std::abs(origin) * 0x1p-58; // as 1 is to 1e17 and more
-        grid.spacing = {std::max(unit, kLeastSpacing), std::max(unit, kLeastSpacing), std::max(unit, kLeastSpacing)};
+        grid.spacing = {std::max(unit, kMinSpacing), std::max(unit, kMinSpacing), std::max(unit, kMinSpacing)};
         grid.origin = {origin, -origin, origin};
         expectExact(grid, {{origin, -origin, origin}, 3 * grid.spacing[0]}, tally);
         expectExact(grid, {{std::nextafter(origin, 2 * origin), -origin, origin}, std::abs(origin) * 0x1p-52}, tally);

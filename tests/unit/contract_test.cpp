@@ -24,7 +24,7 @@ using testing::HasSubstr;
 TEST(EnumTest, NumbersOfNothingAreNamed) {
     EXPECT_TRUE(checkFilter(Filter::Exact).ok());
     EXPECT_TRUE(checkBoundary(Boundary::Clamp).ok());
-    EXPECT_TRUE(checkProjection(Projection::Conservative).ok());
+    EXPECT_TRUE(checkProjection(Projection::Certified).ok());
     EXPECT_TRUE(checkScalarType(ScalarType::Float32).ok());
     EXPECT_EQ(checkFilter(static_cast<Filter>(99)).error().text, "there is no filter number 99");
     EXPECT_EQ(checkBoundary(static_cast<Boundary>(99)).error().text, "there is no boundary number 99");

@@ -138,7 +138,7 @@ TEST(Grids, BadOnesAreRefused) {
 
 /// At both ends of what a spacing may be the way to the world leads back.
 TEST(Grids, TheFinestAndTheCoarsestCanBeInverted) {
-    for (const double spacing : {kLeastSpacing, kMostSpacing}) {
+    for (const double spacing : {kMinSpacing, kMaxSpacing}) {
         Grid grid = obliqueGrid();
         grid.spacing = {spacing, spacing, spacing};
         grid.origin = {};
@@ -152,7 +152,7 @@ TEST(Grids, TheFinestAndTheCoarsestCanBeInverted) {
     }
 }
 
-/// 2^64 bytes of voxels are 0 to whoever counts them in 64 bits.
+/// 2^64 bytes of voxels are 0 when counted in 64 bits.
 TEST(Grids, MoreVoxelsThanCanBeCountedAreRefused) {
     constexpr std::uint32_t kHalf = 1U << 31U;
     for (const auto& [type, last] :
@@ -394,7 +394,7 @@ TEST(VolumeChecks, BadOnesAreRefused) {
 }
 
 TEST(MeshChecks, BadOnesAreRefused) {
-    std::vector<float> positions{0, 0, 0, 1, 0, 0, 0, 1, 0};
+    std::vector<double> positions{0, 0, 0, 1, 0, 0, 0, 1, 0};
     const std::vector<std::uint32_t> indices{0, 1, 2};
     EXPECT_EQ(checkMesh({positions, indices}).value().degenerate, 0U);
     EXPECT_THAT(checkMesh({positions, {}}).error().text, HasSubstr("no triangles"));
@@ -407,7 +407,7 @@ TEST(MeshChecks, BadOnesAreRefused) {
 }
 
 TEST(MeshChecks, DegenerateTrianglesAreCounted) {
-    const std::vector<float> positions{0, 0, 0, 1, 1, 1, 2, 2, 2, 0, 1, 0};
+    const std::vector<double> positions{0, 0, 0, 1, 1, 1, 2, 2, 2, 0, 1, 0};
     const std::vector<std::uint32_t> indices{0, 1, 2, 0, 0, 3, 0, 1, 3};
     const MeshFacts facts = checkMesh({positions, indices}).value();
     EXPECT_EQ(facts.degenerate, 2U);

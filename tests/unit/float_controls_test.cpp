@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "gpu/float_controls.h"
+#include "vulkan/float_controls.h"
 
 #include "voxtact_shaders/bricks_comp.h"
 #include "voxtact_shaders/certified_finish_comp.h"
 #include "voxtact_shaders/compute_comp.h"
 #include "voxtact_shaders/dominant_vert.h"
-#include "voxtact_shaders/pair_setup_doubles_comp.h"
+#include "voxtact_shaders/pair_setup_comp.h"
 #include "voxtact_shaders/view_frag.h"
 
 #include <gmock/gmock.h>
@@ -51,7 +51,7 @@ TEST(FloatControlsTest, NothingIsAskedForThatIsNotPromised) {
 
 /// Of both widths, where a module has both; denormals it does not mention then.
 TEST(FloatControlsTest, DoublesAskForTheSame) {
-    const std::span<const std::uint32_t> module = spirv::pair_setup_doubles_comp;
+    const std::span<const std::uint32_t> module = spirv::pair_setup_comp;
     const Words out = withFloatControls(module, kAll);
     std::vector<Words> modes = operandsOf(out, 16);
     const std::uint32_t main = operandsOf(module, 15).at(0).at(1);

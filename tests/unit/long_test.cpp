@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // 64-bit integers by two words, as shaders have them, against the processor's.
-#include "exact.h"
-#include "long.h"
-#include "long_words.h"
+#include "exact/exact.h"
+#include "exact/long.h"
+#include "exact/long_words.h"
 
 #include "support/scenes.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The inputs of the arithmetic self-test find what drivers are known to do: here the host plays such a driver.
-#include "detect/arithmetic_check.h"
-#include "operations.h"
+#include "device/detector/arithmetic_check.h"
+#include "exact/operations.h"
 
 #include <gtest/gtest.h>
 

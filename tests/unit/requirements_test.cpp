@@ -40,6 +40,8 @@ void VKAPI_PTR fakeProperties(VkPhysicalDevice, VkPhysicalDeviceProperties2* pro
             auto* floats = reinterpret_cast<VkPhysicalDeviceFloatControlsProperties*>(next);
             floats->shaderSignedZeroInfNanPreserveFloat32 = fakeFloats.shaderSignedZeroInfNanPreserveFloat32;
             floats->shaderRoundingModeRTEFloat32 = fakeFloats.shaderRoundingModeRTEFloat32;
+            floats->shaderSignedZeroInfNanPreserveFloat64 = fakeFloats.shaderSignedZeroInfNanPreserveFloat64;
+            floats->shaderRoundingModeRTEFloat64 = fakeFloats.shaderRoundingModeRTEFloat64;
         }
     }
 }
@@ -70,6 +72,8 @@ class RequirementsTest : public testing::Test {
         fakeStorageBuffers = kManyBuffers;
         fakeFloats.shaderSignedZeroInfNanPreserveFloat32 = VK_TRUE;
         fakeFloats.shaderRoundingModeRTEFloat32 = VK_TRUE;
+        fakeFloats.shaderSignedZeroInfNanPreserveFloat64 = VK_TRUE;
+        fakeFloats.shaderRoundingModeRTEFloat64 = VK_TRUE;
         desc_.getInstanceProcAddr = &fakeLoader;
         // Never dereferenced: the fake loader's functions take no notice of them.
         desc_.instance = reinterpret_cast<VkInstance>(std::uintptr_t{1});
@@ -137,12 +141,25 @@ TEST_F(RequirementsTest, FewStorageBuffersCostCompute) {
     EXPECT_THAT(check(desc_).methods.back().reason, HasSubstr("maxPerStageDescriptorStorageBuffers"));
 }
 
-TEST_F(RequirementsTest, FloatsThatAreNotIeeeCostTheCertifiedAnswerAlone) {
+TEST_F(RequirementsTest, DoublesThatAreNotIeeeCostPosesOnTheDevice) {
+    const auto named = [&](const char* what) {
+        return ElementsAre(AllOf(HasSubstr(what), HasSubstr("no poses on the device")));
+    };
+    fakeFloats.shaderRoundingModeRTEFloat64 = VK_FALSE;
+    EXPECT_TRUE(check(desc_).usable);
+    EXPECT_THAT(check(desc_).missing, named("shaderRoundingModeRTEFloat64 is not reported"));
+    fakeFloats.shaderSignedZeroInfNanPreserveFloat64 = VK_FALSE;
+    EXPECT_THAT(check(desc_).missing, named("shaderSignedZeroInfNanPreserveFloat64 is not reported"));
+    request_->features2.features.shaderFloat64 = VK_FALSE;
+    EXPECT_THAT(check(desc_).missing, named("shaderFloat64 is not enabled"));
+}
+
+TEST_F(RequirementsTest, FloatsThatAreNotIeeeCostTheCertifiedAnswerAndPosesOnTheDevice) {
     fakeFloats.shaderRoundingModeRTEFloat32 = VK_FALSE;
     const CheckReport rounding = check(desc_);
     EXPECT_TRUE(rounding.usable);
     EXPECT_THAT(rounding.missing, ElementsAre(AllOf(HasSubstr("shaderRoundingModeRTEFloat32 is not reported"),
-                                                    HasSubstr("no projection conservative"))));
+                                                    HasSubstr("no projection certified"))));
     fakeFloats.shaderSignedZeroInfNanPreserveFloat32 = VK_FALSE;
     const CheckReport both = check(desc_);
     EXPECT_THAT(both.missing, ElementsAre(HasSubstr("shaderSignedZeroInfNanPreserveFloat32 is not reported")));

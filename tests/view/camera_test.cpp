@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "view/model/shown/camera.h"
-#include "view/model/shown/pace.h"
-#include "view/model/shown/slice.h"
+#include "viewer/model/shown/camera.h"
+#include "viewer/model/shown/pace.h"
+#include "viewer/model/shown/slice.h"
 
 #include "voxtact/samples.h"
 

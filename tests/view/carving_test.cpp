@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "view/model/answers/command_text.h"
-#include "view/model/document/carving.h"
-#include "view/model/shown/histogram.h"
-#include "view/state.h"
+#include "viewer/model/answers/command_text.h"
+#include "viewer/model/document/carving.h"
+#include "viewer/model/shown/histogram.h"
+#include "viewer/state.h"
 
 #include "voxtact/samples.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "shown_panels.h"
-#include "view/model/shown/chart_axis.h"
+#include "viewer/model/shown/chart_axis.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

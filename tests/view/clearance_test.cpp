@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/special.h"
-#include "view/model/answers/live_clearance.h"
-#include "view/model/answers/report.h"
+#include "viewer/model/answers/live_clearance.h"
+#include "viewer/model/answers/report.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -14,11 +14,11 @@ using namespace voxtact::view;
 
 namespace {
 
-PairClearance clearance(double lo, double hi) {
-    PairClearance out;
+PairDistance clearance(double lo, double hi) {
+    PairDistance out;
     out.bounds = {lo, hi};
     if (hi < kInfinity) {
-        out.closest = ClosestPoints{.triangle = 4, .mesh = {1, 2, 3}, .volume = {1, 2, 3 + hi}};
+        out.closest = WitnessPoints{.triangle = 4, .mesh = {1, 2, 3}, .volume = {1, 2, 3 + hi}};
     }
     return out;
 }
@@ -30,7 +30,7 @@ MeshClearance measured(double lo, double hi) {
 /// One that touches.
 MeshClearance touching(double lo, double hi) {
     MeshClearance out = measured(0, 0);
-    out.area = PairArea{.bounds = {lo, hi}, .end = AreaEnd::Budget};
+    out.area = PairArea{.bounds = {lo, hi}, .end = StopReason::Budget};
     return out;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "view/model/files/coarser.h"
+#include "viewer/model/files/coarser.h"
 
 #include "voxtact/samples.h"
 

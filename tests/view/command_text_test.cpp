@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "view/model/answers/command_text.h"
-#include "view/model/answers/live_answer.h"
-#include "view/model/answers/report.h"
+#include "viewer/model/answers/command_text.h"
+#include "viewer/model/answers/live_answer.h"
+#include "viewer/model/answers/report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -32,15 +32,15 @@ Document document() {
 } // namespace
 
 TEST(ViewCommand, SaysEverythingThatAnAnswerDependsOn) {
-    EXPECT_EQ(copyAsCommand(document(), {CountingMethod::Cpu, Projection::Conservative}, ""),
-              "echo '1 0 0 1.5 0 1 0 -2 0 0 1 0.3333333333333333 0 0 0 1' | voxtact detect --volume builtin:head:64 "
+    EXPECT_EQ(copyAsCommand(document(), {CountingMethod::Cpu, Projection::Certified}, ""),
+              "echo '1 0 0 1.5 0 1 0 -2 0 0 1 0.3333333333333333 0 0 0 1' | voxtact count --volume builtin:head:64 "
               "--mesh builtin:scalpel:300 --poses - --opacity=-40.5:0,80:0.1 --tf-domain=-1024:3071 --tf-size 256 "
-              "--threshold 0.25 --projection conservative --count cpu");
+              "--opacity-threshold 0.25 --projection certified --method cpu");
 }
 
 TEST(ViewCommand, NamesTheDeviceWhereOneAnswers) {
     const MethodChoice query{CountingMethod::Query, Projection::View};
-    EXPECT_THAT(copyAsCommand(document(), query, "1"), HasSubstr(" --count query --device 1"));
+    EXPECT_THAT(copyAsCommand(document(), query, "1"), HasSubstr(" --method query --device 1"));
     EXPECT_THAT(copyAsCommand(document(), {}, "1"), Not(HasSubstr("--device")));
 }
 
@@ -142,7 +142,7 @@ TEST(ViewAnswer, VerdictsAreThoseOfDetect) {
     EXPECT_STREQ(verdict(answer), "no");
     EXPECT_EQ(hitNumber(answer), 0);
     answer.possible = true;
-    EXPECT_STREQ(verdict(answer), "possible");
+    EXPECT_STREQ(verdict(answer), "undecided");
     EXPECT_EQ(hitNumber(answer), 2);
     answer.hit = true;
     EXPECT_STREQ(verdict(answer), "yes");
@@ -196,7 +196,7 @@ TEST(ViewStrip, AnAnswerIsInSightUntilTheNext) {
 TEST(ViewReport, IsJsonWithWhatTheContractPromises) {
     BatchAnswer batch;
     batch.pairs.resize(1);
-    batch.pairs[0] = {.hit = true, .count = 42, .method = CountingMethod::Cpu, .projection = Projection::Conservative};
+    batch.pairs[0] = {.hit = true, .count = 42, .method = CountingMethod::Cpu, .projection = Projection::Certified};
     batch.pairs.push_back({.pair = 1, .count = 0, .method = CountingMethod::Cpu});
     Document shown = document();
     shown.sources.meshes.push_back({"/data/plate.stl"});
@@ -213,10 +213,10 @@ TEST(ViewReport, IsJsonWithWhatTheContractPromises) {
     report.clearance = &clearance;
     report.commands = {"voxtact \"detect\"", "other"};
     const auto json = nlohmann::json::parse(reportText(report));
-    EXPECT_EQ(json["hit"], 1);
+    EXPECT_EQ(json["touch"], 1);
     EXPECT_EQ(json["count"], 42);
     EXPECT_EQ(json["method"], "cpu");
-    EXPECT_EQ(json["projection"], "conservative");
+    EXPECT_EQ(json["projection"], "certified");
     EXPECT_EQ(json["pose"], (nlohmann::json{1, 0, 0, 5, 0, 1, 0, 6, 0, 0, 1, 7, 0, 0, 0, 1}));
     EXPECT_EQ(json["command"], report.commands[0]);
     EXPECT_TRUE(json["clearance"].is_null());
@@ -225,14 +225,14 @@ TEST(ViewReport, IsJsonWithWhatTheContractPromises) {
     EXPECT_EQ(json["meshes"][0]["mesh"], "builtin:scalpel:300");
     EXPECT_EQ(json["meshes"][0]["count"], 42);
     EXPECT_EQ(json["meshes"][0]["shown"], true);
-    EXPECT_EQ(json["meshes"][1]["hit"], 0);
+    EXPECT_EQ(json["meshes"][1]["touch"], 0);
     EXPECT_EQ(json["meshes"][1]["shown"], false);
     EXPECT_EQ(json["meshes"][1]["command"], "other");
     EXPECT_TRUE(json["meshes"][1]["clearance"].is_object());
     // Of the other one, where that is chosen.
     shown.edit.chosen = 1;
     const auto other = nlohmann::json::parse(reportText(report));
-    EXPECT_EQ(other["hit"], 0);
+    EXPECT_EQ(other["touch"], 0);
     EXPECT_EQ(other["command"], "other");
     EXPECT_TRUE(other["clearance"].is_object());
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "shown_panels.h"
-#include "view/model/answers/comparison.h"
-#include "view/model/answers/report.h"
-#include "view/panels/panels.h"
+#include "viewer/model/answers/comparison.h"
+#include "viewer/model/answers/report.h"
+#include "viewer/panels/panels.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -17,7 +17,7 @@ using namespace voxtact::view;
 
 namespace {
 
-constexpr MethodChoice kHost{CountingMethod::Cpu, Projection::Conservative};
+constexpr MethodChoice kHost{CountingMethod::Cpu, Projection::Certified};
 constexpr MethodChoice kQuery{CountingMethod::Query, Projection::View};
 constexpr std::array kMethods{kHost, kQuery};
 
@@ -106,11 +106,11 @@ TEST(ViewComparison, IsReportedWhileItIsShown) {
     const nlohmann::json json = methods();
     ASSERT_EQ(json.size(), 2U);
     EXPECT_EQ(json[0]["method"], "cpu");
-    EXPECT_EQ(json[0]["projection"], "conservative");
-    EXPECT_EQ(json[0]["hit"], 1);
+    EXPECT_EQ(json[0]["projection"], "certified");
+    EXPECT_EQ(json[0]["touch"], 1);
     EXPECT_EQ(json[0]["count"], 7);
     EXPECT_EQ(json[0]["triangles"], 2);
-    EXPECT_TRUE(json[1]["hit"].is_null());
+    EXPECT_TRUE(json[1]["touch"].is_null());
 }
 
 TEST(ViewComparison, BeginsWhenNothingMovesAndAClickChoosesAMethod) {

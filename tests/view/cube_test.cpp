@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "shown_panels.h"
-#include "view/model/shown/view_cube.h"
+#include "viewer/model/shown/view_cube.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "view/model/document/curve.h"
+#include "viewer/model/document/curve.h"
 
-#include "view/model/document/history.h"
+#include "viewer/model/document/history.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "view/model/document/decimal_comma.h"
+#include "viewer/model/document/decimal_comma.h"
 
 #include <gtest/gtest.h>
 

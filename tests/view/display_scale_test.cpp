@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shown_panels.h"
-#include "view/model/shown/chart_axis.h"
-#include "view/panels/onto.h"
+#include "viewer/model/shown/chart_axis.h"
+#include "viewer/panels/onto.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -32,7 +32,7 @@ def files(program, folder):
         window.until("the first answer", lambda s: s["settled"])
         pathlib.Path(folder, "other.txt").write_text("1 0 0 3 0 1 0 -8 0 0 1 55 0 0 0 1\n")
         window.open(f"{folder}/other.txt")
-        state = window.until("the opened pose", lambda s: s["pose"][HEIGHT] == 55 and s["hit"] == 1)
+        state = window.until("the opened pose", lambda s: s["pose"][HEIGHT] == 55 and s["touch"] == 1)
         window.open(f"{folder}/curve.json")
         state = window.until("the opened curve", lambda s: s["points"] == [[10, 0], [100, 1]])
         compare(program, state)
@@ -100,7 +100,7 @@ def coarser(program, folder):
         assert "coarser by 2" in state["question"]["text"], state
         window.press("Return")
         state = window.until("the coarser copy", lambda s: s["settled"])
-        assert state["coarser"] == 2 and state["hit"] == 1 and state["count"] > 0, state
+        assert state["coarser"] == 2 and state["touch"] == 1 and state["count"] > 0, state
         assert "coarser by 2" in state["command"].splitlines()[0], state
         # The same answer as of a file that holds the copy: 15 voxels per side of twice the spacing.
         large = make(program, folder, "volume", "builtin:head:96", "large.nii")
@@ -114,7 +114,7 @@ def coarser(program, folder):
         window.until("the question again", lambda s: s["question"])
         window.press("Return")
         state = window.until("the other copy", lambda s: s["coarser"] == 5 and s["settled"])
-        assert "/large.nii" in state["command"] and state["hit"] == 1, state
+        assert "/large.nii" in state["command"] and state["touch"] == 1, state
         window.press("ctrl+q")
         window.end()
 
@@ -168,7 +168,7 @@ def session(program, folder):
         assert saved["holes"] and saved["shown"]["handle_axes"] == "view", saved
         with Window(program, server, folder, ["--session", f"{folder}/session.json"]) as window:
             again = window.until("the session", lambda s: s["settled"])
-            for name in ("count", "hit", "pose", "holes", "points"):
+            for name in ("count", "touch", "pose", "holes", "points"):
                 assert again[name] == state[name], (name, again, state)
             # Over one that is there it is asked first; a key that is held is no answer.
             window.press("Next")
@@ -182,7 +182,7 @@ def session(program, folder):
             window.until("the session that is replaced", lambda s: "the session is in" in s["status"])
             replaced = json.loads(pathlib.Path(folder, "session.json").read_text())
             assert replaced != saved, replaced
-            window.press("Prior")  # as it was, and once more without a question
+            window.press("Prior")  # as it was, and again without a question
             window.until("the pose as before", lambda s: s["pose"][HEIGHT] == 59 and s["settled"])
             window.dialog("ctrl+s", f"{folder}/session.json")
             window.until("no dialog", lambda s: s["field"] is None)
@@ -237,42 +237,45 @@ def lost(program, folder):
         assert not fault.exists(), f"{what}: nothing was to fail"
 
     with Server() as server:
-        with Window(program, server, folder, [*SCENE, "--count", "compute", "--poses", poses(folder, 60)],
+        with Window(program, server, folder, [*SCENE, "--method", "compute", "--poses", poses(folder, 60)],
                     faults) as window:
             first = window.until("the first answer", lambda s: s["settled"])
             assert first["method"] == "compute", first
             lose(window, "surface")
-            state = window.until("a new surface", lambda s: "surface" in s["status"] and s["settled"])
-            assert state["pose"][HEIGHT] == 59 and state["method"] == "compute", state
+            # The frame that fails may be the one before the key is seen.
+            state = window.until("a new surface", lambda s: "surface" in s["status"] and s["pose"][HEIGHT] == 59
+                                 and s["settled"])
+            assert state["method"] == "compute", state
             window.press("x")
             window.until("a hole", lambda s: s["holes"] == 1 and s["settled"])
             lose(window, "lost")
             window.until("the question", lambda s: s["question"])
             window.press("Return")
             state = window.until("the host's answer", lambda s: s["settled"] and s["method"] == "cpu")
-            assert state["pose"][HEIGHT] == 58 and state["points"] == first["points"] and state["holes"] == 1, state
+            height = state["pose"][HEIGHT]
+            assert height in (58, 59) and state["points"] == first["points"] and state["holes"] == 1, state
             window.press("ctrl+z", "ctrl+z")
             window.press("Next")
-            state = window.until("the next answer", lambda s: s["pose"][HEIGHT] == 57 and s["settled"])
+            window.until("the next answer", lambda s: s["pose"][HEIGHT] == height - 1 and s["settled"])
             window.press("ctrl+q")
             window.end()
         # While all methods are compared, which may be the first to hear of it.
-        with Window(program, server, folder, [*SCENE, "--count", "compute", "--poses", poses(folder, 60)],
+        with Window(program, server, folder, [*SCENE, "--method", "compute", "--poses", poses(folder, 60)],
                     faults) as window:
             window.until("the first answer", lambda s: s["settled"])
             window.press("k")
-            window.until("the first counts", lambda s: any(one["hit"] is not None for one in s["methods"] or []))
+            window.until("the first counts", lambda s: any(one["touch"] is not None for one in s["methods"] or []))
             lose(window, "lost")
             window.until("the question", lambda s: s["question"])
             window.press("Return")
             state = window.until("the host's answer", lambda s: s["settled"] and s["method"] == "cpu")
-            assert state["pose"][HEIGHT] in (59, 60) and state["hit"] == 1, state
+            assert state["pose"][HEIGHT] in (59, 60) and state["touch"] == 1, state
             state = window.until("the counts again", counted)
             assert not any(one["refused"] for one in state["methods"]), state["methods"]
             window.press("ctrl+q")
             window.end()
-        # The same twice in a moment: it ends, and what was shown is kept.
-        with Window(program, server, folder, [*SCENE, "--count", "compute", "--poses", poses(folder, 60)],
+        # The same again before the question is answered: it ends, and what was shown is kept.
+        with Window(program, server, folder, [*SCENE, "--method", "compute", "--poses", poses(folder, 60)],
                     faults) as window:
             window.until("the first answer", lambda s: s["settled"])
             lose(window, "lost")
@@ -281,7 +284,7 @@ def lost(program, folder):
             said = window.process.stderr.read()
             assert window.process.returncode == 1 and "rescued-session.json" in said, said
         kept = json.loads(pathlib.Path(server.kept.name, "voxtact", "rescued-session.json").read_text())
-        assert kept["instrument"]["pose"][HEIGHT] == 59, kept
+        assert kept["instrument"]["pose"][HEIGHT] in (59, 60), kept
 
 
 def refused(program, status, text, arguments, environment):
@@ -298,7 +301,7 @@ def refusals(program, folder):
     session = pathlib.Path(folder) / "session.json"
     session.write_text('{"voxtact_session": 1, "volume": "builtin:head:18", "mesh": "builtin:scalpel:300"}')
     refused(program, 1, "transfer_function: ", ["--session", str(session)], without)
-    refused(program, 2, "--session", ["--session", str(session), "--threshold", "0.2"], without)
+    refused(program, 2, "--session", ["--session", str(session), "--opacity-threshold", "0.2"], without)
     refused(program, 2, "--volume: the window shows one", ["--volume", "builtin:head", "--volume", "builtin:ct"],
             without)
     named = make(program, folder, "volume", "builtin:ct:16", "named.nii")
@@ -311,7 +314,7 @@ def refusals(program, folder):
         assert pathlib.Path(output).read_bytes() == before, output
     refused(program, 2, "'-' is not a file", [*SCENE, "--report-state", "-"], without)
     refused(program, 2, "a window has 640x480 to", [*SCENE, "--size", "640x470"], without)
-    refused(program, 2, "--count query", ["--count", "query", "--projection", "conservative"], without)
+    refused(program, 2, "--method query", ["--method", "query", "--projection", "certified"], without)
     refused(program, 1, "nowhere.nii", ["--labels", "nowhere.nii"], without)
     refused(program, 2, "--labels is not given", ["--label-names", "nowhere.txt"], without)
     refused(program, 1, "nowhere.nii", ["--volume", "nowhere.nii"], without)

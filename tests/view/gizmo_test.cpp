@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "view/model/shown/gizmo.h"
+#include "viewer/model/shown/gizmo.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "view/model/files/missing_files.h"
-#include "view/model/files/progress.h"
-#include "view/model/files/state_folder.h"
+#include "viewer/model/files/missing_files.h"
+#include "viewer/model/files/progress.h"
+#include "viewer/model/files/state_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -58,7 +58,7 @@ TEST_F(ViewKeptFiles, WhatIsNoListOfFilesIsNone) {
         EXPECT_THAT(RecentFiles(file("recent.json", text)).paths(), IsEmpty()) << text;
     }
     EXPECT_THAT(RecentFiles(folder_).paths(), IsEmpty());
-    // Nowhere to keep it: of this run it is known all the same.
+    // Nowhere to keep it: of this run it is known nevertheless.
     RecentFiles nowhere;
     nowhere.add("/a.nii");
     EXPECT_THAT(nowhere.paths(), ElementsAre("/a.nii"));

@@ -26,17 +26,17 @@ def keys(program, folder):
     with Server() as server, Window(program, server, folder, [*SCENE, "--device", "cpu", "--poses",
                                                              poses(folder, 130, 40)]) as window:
         state = window.until("the first answer", lambda s: s["settled"])
-        assert (state["hit"], state["pose"][HEIGHT], state["method"]) == (0, 130, "cpu"), state
+        assert (state["touch"], state["pose"][HEIGHT], state["method"]) == (0, 130, "cpu"), state
         compare(program, state)
         state = window.until("the first clearance", lambda s: s["clearance"])
         assert state["clearance"]["lo"] > 0 and len(state["clearance"]["volume"]) == 3, state
         compare(program, state)
         height = 130
-        while state["hit"] == 0 and height > 0:
+        while state["touch"] == 0 and height > 0:
             height -= 10
             window.press("shift+Next")
             state = window.until(f"a pose {height} mm high", lambda s: s["pose"][HEIGHT] == height)
-        assert state["hit"] == 1 and state["count"] > 0 and state["triangles"] > 0, state
+        assert state["touch"] == 1 and state["count"] > 0 and state["triangles"] > 0, state
         compare(program, state)
         # Many at once: none is lost.
         window.press("Prior", "Prior", "Prior", "Next")
@@ -51,11 +51,11 @@ def keys(program, folder):
             window.press("ctrl+z")
             steps += 1
             state = window.until("a pose before", lambda s, before=before: s["pose"][HEIGHT] > before)
-        state = window.until("the first pose again", lambda s: s["pose"][HEIGHT] == 130 and s["hit"] == 0)
+        state = window.until("the first pose again", lambda s: s["pose"][HEIGHT] == 130 and s["touch"] == 0)
         window.press(*["ctrl+y"] * steps)
         window.until("what was undone", lambda s: abs(s["pose"][HEIGHT] - height - 2) < 1e-9)
         window.press("bracketright")
-        state = window.until("the second pose of the list", lambda s: s["pose"][HEIGHT] == 40 and s["hit"] == 1)
+        state = window.until("the second pose of the list", lambda s: s["pose"][HEIGHT] == 40 and s["touch"] == 1)
         compare(program, state)
         # Another size: frames go on, and the answer stays.
         before = window.until("the fine picture", lambda s: s["settled"])["frame"]
@@ -123,8 +123,8 @@ def handles(program, folder):
 
 def methods(program, folder):
     with Server() as server:
-        for method, projection in (("compute", "conservative"), ("query", "view"), ("atomic", "dominant-axis")):
-            with Window(program, server, folder, [*SCENE, "--poses", poses(folder, 60), "--count", method,
+        for method, projection in (("compute", "certified"), ("query", "view"), ("atomic", "dominant-axis")):
+            with Window(program, server, folder, [*SCENE, "--poses", poses(folder, 60), "--method", method,
                                                   "--projection", projection]) as window:
                 state = window.until(f"the answer of {method}", lambda s: s["settled"])
                 assert state["count"] > 0 and state["device"] != "host", state
@@ -147,12 +147,12 @@ def counts(program, folder, server):
         by_projection = {}
         for one in state["methods"]:
             if one["filter"] == "exact" and one["exact"] == 1:
-                by_projection.setdefault(one["projection"], []).append((one["hit"], one["count"], one["triangles"]))
+                by_projection.setdefault(one["projection"], []).append((one["touch"], one["count"], one["triangles"]))
         assert len(by_projection) >= 3, by_projection
         assert all(len(said) >= 2 and len(set(said)) == 1 for said in by_projection.values()), by_projection
-        assert all(one["hit"] == 1 for one in state["methods"]), state["methods"]
-        live = next(one for one in state["methods"] if one["method"] == "cpu" and one["projection"] == "conservative")
-        assert (live["hit"], live["count"]) == (state["hit"], state["count"]), state
+        assert all(one["touch"] == 1 for one in state["methods"]), state["methods"]
+        live = next(one for one in state["methods"] if one["method"] == "cpu" and one["projection"] == "certified")
+        assert (live["touch"], live["count"]) == (state["touch"], state["count"]), state
         window.press("Next")
         state = window.until("the counts of the next pose", lambda s: counted(s) and s["pose"][HEIGHT] == 59)
         assert state["methods"][-1]["count"] == state["count"], state
@@ -167,7 +167,7 @@ def labels(program, folder):
     subprocess.run([program, "make", "volume", "builtin:head:30", f"{folder}/atlas.nii"], check=True,
                    capture_output=True, timeout=PATIENCE)
     with Server() as server:
-        for device in (["--device", "cpu"], ["--count", "compute"]):
+        for device in (["--device", "cpu"], ["--method", "compute"]):
             with Window(program, server, folder, [*SCENE, *device, "--poses", poses(folder, 60), "--labels",
                                                   f"{folder}/atlas.nii"]) as window:
                 state = window.until("the answer with labels", lambda s: s["settled"])
@@ -192,7 +192,7 @@ def drill(program, folder):
     scene = ["--volume", "builtin:head:96", *SCENE[2:]]
     counts = []
     with Server() as server:
-        for device in (["--device", "cpu"], ["--count", "compute"]):
+        for device in (["--device", "cpu"], ["--method", "compute"]):
             with Window(program, server, folder, [*scene, *device, "--poses", poses(folder, 60)]) as window:
                 state = window.until("the answer before", lambda s: s["settled"])
                 whole = state["count"]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "view/model/shown/keystrokes.h"
+#include "viewer/model/shown/keystrokes.h"
 
 #include <gtest/gtest.h>
 

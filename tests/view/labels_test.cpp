@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "view/model/answers/live_answer.h"
-#include "view/model/answers/report.h"
-#include "view/model/document/labels.h"
+#include "viewer/model/answers/live_answer.h"
+#include "viewer/model/answers/report.h"
+#include "viewer/model/document/labels.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "view/panels/marks.h"
+#include "viewer/panels/marks.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

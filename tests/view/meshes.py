@@ -19,7 +19,7 @@ def compare_all(program, state):
     for mesh in state["meshes"]:
         compare(program, mesh)
     chosen = state["meshes"][state["chosen"]]
-    for name in ("hit", "count", "pose", "triangles", "contacts", "command"):
+    for name in ("touch", "count", "pose", "triangles", "contacts", "command"):
         assert state[name] == chosen[name], (name, state)
 
 
@@ -28,7 +28,7 @@ def heights(state):
 
 
 def settled(state):
-    return state["settled"] and all(mesh["hit"] is not None for mesh in state["meshes"])
+    return state["settled"] and all(mesh["touch"] is not None for mesh in state["meshes"])
 
 
 def measured(state):
@@ -48,8 +48,8 @@ def steps(program, folder, window):
     window.until("the choice of the other", lambda s: s["chosen"] == 1)
     window.press(*["shift+Next"] * 7)
     state = window.until("the second one in the head", lambda s: heights(s) == [120, 60] and measured(s))
-    hits = [mesh["hit"] for mesh in state["meshes"]]
-    assert hits == [0, 1] and state["hit"] == 1 and state["triangles"] > 0, state
+    hits = [mesh["touch"] for mesh in state["meshes"]]
+    assert hits == [0, 1] and state["touch"] == 1 and state["triangles"] > 0, state
     compare_all(program, state)
     # One that is not shown is answered for.
     window.press("v")
@@ -91,7 +91,7 @@ def host(program, folder):
             window.end()
         with Window(program, server, folder, ["--session", f"{folder}/session.json", "--device", "cpu"]) as window:
             again = window.until("the session", measured)
-            for name in ("mesh", "shown", "pose", "hit", "count"):
+            for name in ("mesh", "shown", "pose", "touch", "count"):
                 assert [one[name] for one in again["meshes"]] == [one[name] for one in state["meshes"]], (name, again)
             assert again["chosen"] == state["chosen"], again
             window.press("ctrl+q")
@@ -104,7 +104,7 @@ def host(program, folder):
 
 
 def device(program, folder):
-    with Server() as server, Window(program, server, folder, scene(folder, "--count", "compute")) as window:
+    with Server() as server, Window(program, server, folder, scene(folder, "--method", "compute")) as window:
         state = steps(program, folder, window)
         assert state["device"] != "host", state
         window.press("ctrl+q")

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "view/model/files/open_file.h"
-#include "view/model/files/save_file.h"
-#include "view/model/files/session_file.h"
+#include "viewer/model/files/open_file.h"
+#include "viewer/model/files/save_file.h"
+#include "viewer/model/files/session_file.h"
 
 #include "voxtact/io.h"
 #include "voxtact/samples.h"

@@ -17,7 +17,7 @@ import pathlib
 import sys
 import time
 
-from window import SCENE, Server, Window, compare, main, poses
+from window import PATIENCE, SCENE, Server, Window, compare, main, poses
 
 
 def drag(window, x, y, right, down):
@@ -29,16 +29,17 @@ def drag(window, x, y, right, down):
 
 
 def until(window, act, what, true_of):
-    """The state when that is true of it, after `act`: what a frame has missed is done again."""
-    for _ in range(10):
+    """The state when that is true of it, after `act`. What a frame has missed is done again, so late that it is not done
+    twice on a busy machine."""
+    for _ in range(4):
         act()
-        deadline = time.monotonic() + 5
+        deadline = time.monotonic() + PATIENCE / 4
         while time.monotonic() < deadline:
             state = window.state()
             if true_of(state):
                 return state
             time.sleep(0.05)
-    raise AssertionError(f"ten times, and not {what}: {window.state()}")
+    raise AssertionError(f"four times, and not {what}: {window.state()}")
 
 
 def cube(program, folder):

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "view/model/shown/pointer.h"
+#include "viewer/model/shown/pointer.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "view/model/document/pose.h"
+#include "viewer/model/document/pose.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "view/model/files/session_file.h"
+#include "viewer/model/files/session_file.h"
 
 #include "voxtact/io.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "view/panels/panels.h"
+#include "viewer/panels/panels.h"
 
 #include <functional>
 #include <string>

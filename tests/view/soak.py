@@ -47,7 +47,7 @@ def soak(program, folder, seconds=10):
     random = source.Random(seed)
     print(f"seed {seed}", flush=True)
     sizes = ((640, 480), (900, 700), (700, 720))
-    with Server() as server, Window(program, server, folder, [*SCENE, "--count", "compute", "--poses",
+    with Server() as server, Window(program, server, folder, [*SCENE, "--method", "compute", "--poses",
                                                              poses(folder, 130, 90, 60, 40, 20)]) as window:
         window.until("the first answer", lambda s: s["settled"])
         # What is compiled once is not counted as growth.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "view/state.h"
+#include "viewer/state.h"
 
-#include "view/model/document/pose.h"
-#include "view/model/shown/histogram.h"
+#include "viewer/model/document/pose.h"
+#include "viewer/model/shown/histogram.h"
 #include "voxtact/samples.h"
 
 #include <gmock/gmock.h>

@@ -37,7 +37,7 @@ class Server:
                                          "-fbdir", self.frames.name],
                                         stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
         number = self.process.stdout.readline().strip()
-        # What the window keeps from run to run is not that of whoever runs the tests.
+        # What the window keeps from run to run is not that of the user who runs the tests.
         self.kept = tempfile.TemporaryDirectory()
         self.environment = {**os.environ, "DISPLAY": f":{number}", "XDG_STATE_HOME": self.kept.name}
 
@@ -145,7 +145,9 @@ class Window:
             if time.monotonic() > deadline:
                 fail(f"not within {PATIENCE} s: the field below; the last state: {self.state()}")
             self.hold(0.2, "Tab")
-            time.sleep(1)
+            again = time.monotonic() + PATIENCE / 12
+            while self.state()["field"] in (None, before) and time.monotonic() < again:
+                time.sleep(0.05)
 
     def enter(self):
         self.hold(0.4, "Return")
@@ -179,18 +181,22 @@ def answer_of(program, command):
 def compare(program, state):
     """The state's answer is that of its command; where it has a clearance and an area, these are the host's."""
     row = answer_of(program, state["command"])
-    for name in ("hit", "count", "exact", "method", "projection"):
-        if row[name] != str(state[name]):
-            fail(f"{name}: the window says {state[name]}, its command {row[name]}: {state['command']}")
+    for name in ("touch", "count", "exact", "method", "projection"):
+        column = "count_exact" if name == "exact" else name
+        if row[column] != str(state[name]):
+            fail(f"{name}: the window says {state[name]}, its command {row[column]}: {state['command']}")
     if "labels" in state and labels_text(state) != row["labels"]:
         fail(f"labels: the window says {labels_text(state)}, its command {row['labels']}: {state['command']}")
     for what in ("clearance", "area"):
         if not state[what]:
             continue
-        command = re.sub("--projection .*", f"--projection conservative --count cpu --{what}", state["command"])
-        row = answer_of(program, command)
-        for name in ("lo", "hi"):
-            said, is_so = float(state[what][name]), float(row[f"{what}_{name}"])
+        question = "distance" if what == "clearance" else what
+        word = "('[^']*'|[^ ]+)"
+        command = re.sub(f" --label-counts --labels {word}( --label-names {word})?", "", state["command"])
+        command = re.sub(f" --projection .*| --tf-domain={word}| --tf-size {word}", "", command)
+        row = answer_of(program, command.replace("voxtact count", f"voxtact {question}"))
+        for name, column in (("lo", "lower"), ("hi", "upper")):
+            said, is_so = float(state[what][name]), float(row[column])
             if said != is_so and abs(said - is_so) > 1e-6 * is_so:
                 fail(f"{what} {name}: the window says {said}, its command {is_so}: {command}")
 
@@ -216,7 +222,7 @@ def make(program, folder, kind, source, name):
 
 
 def counted(state):
-    return state["methods"] and all(one["hit"] is not None or one["refused"] for one in state["methods"])
+    return state["methods"] and all(one["touch"] is not None or one["refused"] for one in state["methods"])
 
 
 def main(arguments, checks, usage, timed=None):

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "shown_panels.h"
-#include "view/model/files/save_file.h"
+#include "viewer/model/files/save_file.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -18,7 +18,7 @@ using namespace voxtact::view;
 
 TEST(ViewWords, OneIsOne) {
     MeshAnswer answer;
-    answer.pair.projection = Projection::Conservative;
+    answer.pair.projection = Projection::Certified;
     answer.pair.exactness = Exactness::Exact;
     answer.pair.count = 1;
     answer.triangles = {3};

@@ -48,15 +48,15 @@ def poses_of(first, number):
 def answer(first, number):
     """One byte per pose: 1, it touches; 2, rounding leaves it open; 0."""
     scene, mesh = scene_and_mesh()
-    found = scene.detect(mesh, poses_of(first, number), yes_no=True)
-    return np.where(found.possible, 2, found.hit).astype(np.uint8)
+    found = scene.touch(mesh, poses_of(first, number))
+    return np.where(found.undecided, 2, found.touches).astype(np.uint8)
 
 
 # %%
 def main(words):
     number = next((int(word) for word in words if word.isdigit()), 1_000_000)
     address = next((word for word in words if "://" in word), None)
-    # A short run has two tasks all the same.
+    # A short run has two tasks nevertheless.
     size = min(PER_TASK, -(-number // 2))
     cluster = address or LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None)
     with Client(cluster) as client:

@@ -33,8 +33,8 @@ poses[:, :3, :3] = turn
 poses[:, :3, 3] = np.array([60, 55, 90]) - way[:, None] * turn[:, 2]
 
 # %%
-answer = scene.detect(mesh, poses, contacts=True)
-left = scene.clearance(mesh, poses)
+answer = scene.count(mesh, poses, contacts=True)
+left = scene.distance(mesh, poses)
 depth = np.zeros(len(way))
 np.maximum.at(depth, answer.contacts["pair"], answer.contacts["depth"])
 
@@ -50,18 +50,18 @@ for pose in poses:
     inside = ((0 <= x) & (x < head.shape[2]) & (0 <= y) & (y < head.shape[1]) & (0 <= z) & (z < head.shape[0]))
     sampled.append((head.array[z[inside], y[inside], x[inside]] >= 44).any())
 sampled = np.array(sampled)
-print(f"certain from {way[np.argmax(answer.hit)]:.2f} mm on; the vertices say so from {way[np.argmax(sampled)]:.2f} mm on")
-print(f"of {int(answer.hit.sum())} poses that touch, the vertices miss {int((answer.hit & ~sampled).sum())}")
-assert answer.hit.any() and (left.lo[answer.hit] == 0).all() and (left.lo[~answer.hit & ~answer.possible] > 0).all()
+print(f"certain from {way[np.argmax(answer.touches)]:.2f} mm on; the vertices say so from {way[np.argmax(sampled)]:.2f} mm on")
+print(f"of {int(answer.touches.sum())} poses that touch, the vertices miss {int((answer.touches & ~sampled).sum())}")
+assert answer.touches.any() and (left.lower[answer.touches] == 0).all() and (left.lower[~answer.touches & ~answer.undecided] > 0).all()
 
 # %%
 from matplotlib import pyplot
 
 figure, (upper, lower) = pyplot.subplots(2, 1, sharex=True, figsize=(7, 5))
 upper.plot(way, depth, label="deepest contact, mm")
-upper.fill_between(way, left.lo, left.hi, color="tab:green", alpha=0.5, label="clearance, certified bounds, mm")
+upper.fill_between(way, left.lower, left.upper, color="tab:green", alpha=0.5, label="distance, certified bounds, mm")
 upper.legend()
-lower.step(way, answer.hit, label="touches: certified")
+lower.step(way, answer.touches, label="touches: certified")
 lower.step(way, sampled * 0.96, label="touches: vertices in voxels")
 lower.set_xlabel("way, mm")
 lower.legend()

@@ -31,24 +31,24 @@ def around(radius, step):
 
 # %%
 poses = around(95.0, 60)
-at_the_poses = scene.detect(knife, poses, yes_no=True).hit
+at_the_poses = scene.touch(knife, poses).touches
 slerp = scene.motion(knife, poses, interpolation="slerp")
 screw = scene.motion(knife, poses)
-print(f"{int(at_the_poses.sum())} of {len(poses)} poses touch; of {len(slerp)} straight ways {int(slerp.hit.sum())} do, "
-      f"of ways that turn about an axis {int(screw.hit.sum())}")
-assert slerp.hit.sum() > at_the_poses.sum()
+print(f"{int(at_the_poses.sum())} of {len(poses)} poses touch; of {len(slerp)} straight ways {int(slerp.touches.sum())} do, "
+      f"of ways that turn about an axis {int(screw.touches.sum())}")
+assert slerp.touches.sum() > at_the_poses.sum()
 
 # %% [markdown]
 # The first touch on the way, and the pose at which it is; `pose_between` is any pose of it.
 
 # %%
-first = int(np.argmax(slerp.hit))
-touch = slerp.touches[first]
-print(f"way {first} is free until {slerp.free_until[first]:.4f} and touches at {touch['at']:.4f}, "
+first = int(np.argmax(slerp.touches))
+touch = slerp.impacts[first]
+print(f"way {first} is free until {slerp.toi_lower[first]:.4f} and touches at {touch['at']:.4f}, "
       f"at {np.round(touch['position'], 2)}")
-before = vx.pose_between(poses[first], poses[first + 1], slerp.free_until[first], interpolation="slerp", mesh=knife)
-print(f"{scene.clearance(knife, before).hi[0]:.3f} mm are left at the end of what is free")
-assert scene.detect(knife, touch["world_from_object"]).hit[0]
+before = vx.pose_between(poses[first], poses[first + 1], slerp.toi_lower[first], interpolation="slerp", mesh=knife)
+print(f"{scene.distance(knife, before).upper[0]:.3f} mm are left at the end of what is free")
+assert scene.count(knife, touch["world_from_object"]).touches[0]
 
 # %% [markdown]
 # How far may the tracked tool be off, at the poses that are free?
@@ -56,8 +56,8 @@ assert scene.detect(knife, touch["world_from_object"]).hit[0]
 # %%
 free = poses[~at_the_poses]
 for distance, angle in ((2, 2), (6, 4), (10, 6), (15, 8)):
-    answer = scene.around(knife, free, distance=distance, angle=angle)
-    safe = ~answer.hit & ~answer.possible
+    answer = scene.touch(knife, free, uncertainty=(distance, angle))
+    safe = ~answer.touches & ~answer.undecided
     print(f"off by {distance} mm and {angle} degrees: {int(safe.sum())} of {len(free)} are safe")
 
 # %%

@@ -40,7 +40,7 @@ progress = None
 if sys.stderr.isatty():
     from tqdm import tqdm as progress
 begin = time.perf_counter()
-answer = scene.detect(probe, poses, labels=True, progress=progress)
+answer = scene.count(probe, poses, labels=True, progress=progress)
 seconds = time.perf_counter() - begin
 print(f"{answer}: {number / seconds:,.0f} poses per second")
 
@@ -53,4 +53,4 @@ order = np.argsort(-poses_of_label)
 for label, touching in zip(values[order][:12], poses_of_label[order]):
     name = labels.names.get(int(label), f"label {label}")
     print(f"{name:20} {100 * touching / number:6.2f} %  {'#' * int(60 * touching / poses_of_label.max())}")
-assert answer.hit.sum() == len(np.unique(answer.labels["pair"]))
+assert answer.touches.sum() == len(np.unique(answer.labels["pair"]))

@@ -46,12 +46,12 @@ poses = np.tile(np.eye(4), (len(heights), 1, 1))
 poses[:, :2, 3] = centre[:2]
 poses[:, 2, 3] = heights
 
-answer = scene.detect(knife, poses)
+answer = scene.count(knife, poses)
 print(answer)
-first = int(np.argmax(answer.hit))
+first = int(np.argmax(answer.touches))
 contacts = answer.contacts[answer.contacts["pair"] == first]
 print(f"it first touches with the tip at z = {heights[first]:.2f} mm: {len(contacts)} contacts, "
       f"the deepest {contacts['depth'].max():.3f} mm deep, on triangles {np.unique(contacts['triangle']).tolist()}")
-before = scene.clearance(knife, poses[first - 1])
-print(f"one step before, {before.lo[0]:.3f} to {before.hi[0]:.3f} mm were left")
-assert first > 0 and before.lo[0] > 0 and contacts["depth"].max() >= 0
+before = scene.distance(knife, poses[first - 1])
+print(f"one step before, {before.lower[0]:.3f} to {before.upper[0]:.3f} mm were left")
+assert first > 0 and before.lower[0] > 0 and contacts["depth"].max() >= 0

@@ -16,7 +16,7 @@ import voxtact as vx
 scene = vx.Scene("builtin:head:128", opacity=[(40, 0), (80, 1)])
 knife = vx.read_mesh("builtin:scalpel")
 pose = np.array([[0.8, 0, 0.6, 20], [0, 1, 0, -5], [-0.6, 0, 0.8, 45], [0, 0, 0, 1.0]])
-contacts = scene.detect(knife, pose, contacts=True).contacts
+contacts = scene.count(knife, pose, contacts=True).contacts
 print(f"{len(contacts)} contacts")
 
 # %% [markdown]

@@ -24,7 +24,7 @@ touching, seconds = [], []
 for value in values:
     begin = time.perf_counter()
     scene.opacity = [(value - 1, 0), (value + 1, 1)]
-    touching.append(int(scene.detect(knife, poses, yes_no=True).hit.sum()))
+    touching.append(int(scene.touch(knife, poses).touches.sum()))
     seconds.append(time.perf_counter() - begin)
 for value, hits in list(zip(values, touching))[::6]:
     print(f"opaque from {value:6.0f} HU on: {hits:2} of {len(poses)} poses touch")
@@ -37,9 +37,9 @@ assert touching[0] > touching[-1]
 
 # %%
 scene.opacity = [(-1, 0), (1, 1)]
-pose = poses[int(np.argmax(scene.detect(knife, poses, yes_no=True).hit))]
-print("before:", scene.detect(knife, pose))
+pose = poses[int(np.argmax(scene.touch(knife, poses).touches))]
+print("before:", scene.count(knife, pose))
 for z in np.arange(0, 151, 5.0):  # along the scalpel
     scene.edit(ball=(*(pose @ [0, -3, z, 1])[:3], 30), value=-1000)
-print("after: ", scene.detect(knife, pose))
-assert not scene.detect(knife, pose).hit[0]
+print("after: ", scene.count(knife, pose))
+assert not scene.count(knife, pose).touches[0]

@@ -4,9 +4,9 @@
 #include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
+#include "core/facts/facts.h"
 #include "core/geometry/projection.h"
 #include "core/method/method_table.h"
-#include "core/transfer/threshold.h"
 
 #include <array>
 #include <limits>
@@ -74,7 +74,7 @@ Result<void> checkBatchItem(const ProjectionRow& projection, std::uint32_t sampl
     VOXTACT_TRY(detail::checkPoses(item, which));
     if (!projection.certified && !side.holdsValues(item)) {
         return refuse(which + ": single precision cannot hold the volume's values in the transfer function's domain; "
-                              "the projection conservative says what can be said");
+                              "the projection certified says what can be said");
     }
     if (projection.voxelGrid) {
         const Grid& grid = item.volume->grid();
@@ -91,7 +91,7 @@ Result<void> checkBatchItem(const ProjectionRow& projection, std::uint32_t sampl
 template <class Batch, class Side>
 Result<std::uint32_t> checkBatch(Projection projection, std::uint32_t samplesPerVoxel, const Batch& batch,
                                  const Side& side) {
-    VOXTACT_TRY(checkThreshold(batch.threshold));
+    VOXTACT_TRY(checkFact(factOf("scene", "opacity_threshold"), batch.threshold));
     const ProjectionRow& row = rowOf(projection);
     if (row.camera) {
         VOXTACT_TRY(detail::checkView(batch.view, side));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "contact.h"
+#include "exact/contact.h"
 #include "voxtact/data.h"
 #include "voxtact/results.h"
 

@@ -2,13 +2,13 @@
 #pragma once
 
 #include "core/geometry/vec3.h"
-#include "voxtact/clearance.h"
+#include "voxtact/distance.h"
 
 namespace voxtact {
 
 /// Says how the distance of closest points changes with the pose. `way`: from the mesh's point to the volume's; `arm`:
 /// from the object's origin to the mesh's. World mm. Nothing changes where the two are one.
-inline void setGradient(ClosestPoints& closest, const Vec3& way, const Vec3& arm) {
+inline void setGradient(WitnessPoints& closest, const Vec3& way, const Vec3& arm) {
     const double distance = length(way);
     if (!(distance > 0)) {
         return;

@@ -11,18 +11,18 @@ namespace {
 
 using Point = std::array<float, 3>;
 
-struct Bounds {
+struct PointBounds {
     Point lo;
     Point hi;
 };
 
-Point vertexAt(const MeshView& mesh, std::uint32_t vertex) {
+Point vertexAt(const FloatMesh& mesh, std::uint32_t vertex) {
     const float* at = mesh.positions.data() + std::size_t{3} * vertex;
     return {at[0], at[1], at[2]};
 }
 
-template <class Range, class PointOf> Bounds boundsOf(const Range& range, const PointOf& pointOf) {
-    Bounds bounds{pointOf(range.front()), pointOf(range.front())};
+template <class Range, class PointOf> PointBounds boundsOf(const Range& range, const PointOf& pointOf) {
+    PointBounds bounds{pointOf(range.front()), pointOf(range.front())};
     for (const std::uint32_t element : range) {
         const Point point = pointOf(element);
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -35,7 +35,7 @@ template <class Range, class PointOf> Bounds boundsOf(const Range& range, const 
 
 class Splitter {
   public:
-    Splitter(const MeshView& mesh, MeshClusters& out) : mesh_(mesh), out_(out), centroids_(mesh.indices.size() / 3) {
+    Splitter(const FloatMesh& mesh, MeshClusters& out) : mesh_(mesh), out_(out), centroids_(mesh.indices.size() / 3) {
         for (std::size_t i = 0; i < centroids_.size(); ++i) {
             for (std::size_t corner = 0; corner < 3; ++corner) {
                 const Point point = vertexAt(mesh, mesh.indices[3 * i + corner]);
@@ -83,7 +83,7 @@ class Splitter {
     }
 
     [[nodiscard]] std::size_t longestAxis(std::span<const std::uint32_t> triangles) const {
-        const Bounds bounds = boundsOf(triangles, [&](std::uint32_t triangle) { return centroids_[triangle]; });
+        const PointBounds bounds = boundsOf(triangles, [&](std::uint32_t triangle) { return centroids_[triangle]; });
         std::size_t longest = 0;
         for (std::size_t axis = 1; axis < 3; ++axis) {
             if (bounds.hi[axis] - bounds.lo[axis] > bounds.hi[longest] - bounds.lo[longest]) {
@@ -101,7 +101,7 @@ class Splitter {
         }
         std::sort(vertices.begin(), vertices.end());
         vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-        const Bounds bounds = boundsOf(vertices, [&](std::uint32_t vertex) { return vertexAt(mesh_, vertex); });
+        const PointBounds bounds = boundsOf(vertices, [&](std::uint32_t vertex) { return vertexAt(mesh_, vertex); });
         out_.clusters.push_back({static_cast<std::uint32_t>(out_.corners.size()),
                                  static_cast<std::uint32_t>(triangles.size()),
                                  static_cast<std::uint32_t>(out_.vertices.size()),
@@ -118,7 +118,7 @@ class Splitter {
         out_.vertices.insert(out_.vertices.end(), vertices.begin(), vertices.end());
     }
 
-    const MeshView& mesh_;
+    const FloatMesh& mesh_;
     MeshClusters& out_;
     std::vector<Point> centroids_;
 };
@@ -132,7 +132,7 @@ void grow(RunBox& box, const RunBox& by) {
     }
 }
 
-std::vector<RunBox> runBoxes(const MeshView& mesh, const MeshClusters& clusters) {
+std::vector<RunBox> runBoxes(const FloatMesh& mesh, const MeshClusters& clusters) {
     std::vector<RunBox> runs;
     // All clusters but the last are full: runs are not cut by their ends.
     for (std::size_t i = 0; i < clusters.triangles.size(); ++i) {
@@ -147,7 +147,7 @@ std::vector<RunBox> runBoxes(const MeshView& mesh, const MeshClusters& clusters)
     return runs;
 }
 
-MeshClusters makeClusters(const MeshView& mesh) {
+MeshClusters makeClusters(const FloatMesh& mesh) {
     MeshClusters out;
     out.triangles.resize(mesh.indices.size() / 3);
     std::iota(out.triangles.begin(), out.triangles.end(), 0U);

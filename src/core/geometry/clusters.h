@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "voxtact/data.h"
+#include "core/geometry/recentre.h"
 
 #include <array>
 #include <cstdint>
@@ -39,12 +39,11 @@ struct MeshClusters {
 };
 
 /// Splits at the median along the longest axis until at most kClusterTriangles are left; all clusters but the last are
-/// full. The same mesh gives the same
-/// clusters. Expects a mesh that checkMesh() accepts.
-[[nodiscard]] MeshClusters makeClusters(const MeshView& mesh);
+/// full. The same mesh gives the same clusters. Expects a mesh that checkedMesh() returns.
+[[nodiscard]] MeshClusters makeClusters(const FloatMesh& mesh);
 
 void grow(RunBox& box, const RunBox& by);
 /// Around each kRunTriangles of the triangles of `clusters`, one run after the other.
-[[nodiscard]] std::vector<RunBox> runBoxes(const MeshView& mesh, const MeshClusters& clusters);
+[[nodiscard]] std::vector<RunBox> runBoxes(const FloatMesh& mesh, const MeshClusters& clusters);
 
 } // namespace voxtact

@@ -49,10 +49,10 @@ Result<void> checkDirection(const Grid& grid) {
     }
     for (int axis = 0; axis < 3; ++axis) {
         const double step = glm::length(direction[axis]) * grid.spacing[static_cast<std::size_t>(axis)];
-        if (!(step >= kLeastSpacing && step <= kMostSpacing)) {
+        if (!(step >= kMinSpacing && step <= kMaxSpacing)) {
             return refuse(std::string("the voxels along ") + kAxes[axis] + " are " + number(step) +
-                          " mm apart, by spacing and direction; it must be from " + number(kLeastSpacing) + " to " +
-                          number(kMostSpacing));
+                          " mm apart, by spacing and direction; it must be from " + number(kMinSpacing) + " to " +
+                          number(kMaxSpacing));
         }
     }
     if (!(std::abs(glm::determinant(direction)) >= kSmallestDeterminant)) {
@@ -69,13 +69,13 @@ Result<void> checkGrid(const Grid& grid) {
         if (grid.size[axis] == 0) {
             return refuse(std::string("the image is empty: it has 0 voxels along ") + kAxes[axis]);
         }
-        if (!(grid.spacing[axis] >= kLeastSpacing && grid.spacing[axis] <= kMostSpacing)) {
+        if (!(grid.spacing[axis] >= kMinSpacing && grid.spacing[axis] <= kMaxSpacing)) {
             return refuse(std::string("the spacing along ") + kAxes[axis] + " is " + number(grid.spacing[axis]) +
-                          " mm, it must be from " + number(kLeastSpacing) + " to " + number(kMostSpacing));
+                          " mm, it must be from " + number(kMinSpacing) + " to " + number(kMaxSpacing));
         }
-        if (!(std::abs(grid.origin[axis]) <= kMostSpacing)) {
+        if (!(std::abs(grid.origin[axis]) <= kMaxSpacing)) {
             return refuse(std::string("the origin's ") + kAxes[axis] + " is " + number(grid.origin[axis]) +
-                          " mm, it must be within " + number(kMostSpacing));
+                          " mm, it must be within " + number(kMaxSpacing));
         }
     }
     // So that no number of bytes is more than 64 bits hold.

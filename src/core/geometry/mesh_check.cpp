@@ -3,7 +3,7 @@
 #include "core/base/infinity.h"
 #include "core/base/refuse.h"
 #include "core/base/try.h"
-#include "core/geometry/mesh_vertex.h"
+#include "core/geometry/recentre.h"
 #include "voxtact/data.h"
 
 #include <algorithm>
@@ -39,39 +39,62 @@ Result<void> checkArrays(const MeshView& mesh) {
     return {};
 }
 
+Result<MeshFacts> checkVertices(std::span<const double> positions) {
+    MeshFacts facts;
+    facts.vertices = static_cast<std::uint32_t>(positions.size() / 3);
+    facts.bounds = {{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        const double coordinate = positions[i];
+        if (!std::isfinite(static_cast<float>(coordinate))) {
+            const char* wrong = std::isnan(coordinate)   ? "NaN"
+                                : std::isinf(coordinate) ? "infinite"
+                                                         : "beyond the range of floats";
+            return refuse("vertex " + std::to_string(i / 3) + " of the mesh has a coordinate that is " + wrong);
+        }
+        facts.bounds.lo[i % 3] = std::min(facts.bounds.lo[i % 3], coordinate);
+        facts.bounds.hi[i % 3] = std::max(facts.bounds.hi[i % 3], coordinate);
+    }
+    return facts;
+}
+
+std::uint32_t degenerateOf(std::span<const float> positions, std::span<const std::uint32_t> indices) {
+    const auto vertex = [&](std::uint32_t index) {
+        const float* at = positions.data() + std::size_t{3} * index;
+        return Vec3{static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])};
+    };
+    std::uint32_t degenerate = 0;
+    for (std::size_t i = 0; i < indices.size(); i += 3) {
+        degenerate += isDegenerate(vertex(indices[i]), vertex(indices[i + 1]), vertex(indices[i + 2])) ? 1U : 0U;
+    }
+    return degenerate;
+}
+
 } // namespace
 
-Result<MeshFacts> checkMesh(const MeshView& mesh) {
-    return guard([&]() -> Result<MeshFacts> {
+Result<CheckedMesh> checkedMesh(const MeshView& mesh) {
+    return guard([&]() -> Result<CheckedMesh> {
         VOXTACT_TRY(checkArrays(mesh));
-        MeshFacts facts;
-        facts.vertices = static_cast<std::uint32_t>(mesh.positions.size() / 3);
-        facts.triangles = static_cast<std::uint32_t>(mesh.indices.size() / 3);
-        facts.bounds = {{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
-        for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-            const auto coordinate = static_cast<double>(mesh.positions[i]);
-            if (!std::isfinite(coordinate)) {
-                return refuse("vertex " + std::to_string(i / 3) + " of the mesh has a coordinate that is " +
-                              (std::isnan(coordinate) ? "NaN" : "infinite"));
-            }
-            facts.bounds.lo[i % 3] = std::min(facts.bounds.lo[i % 3], coordinate);
-            facts.bounds.hi[i % 3] = std::max(facts.bounds.hi[i % 3], coordinate);
-        }
+        Result<MeshFacts> facts = checkVertices(mesh.positions);
+        VOXTACT_TRY(facts);
+        facts->triangles = static_cast<std::uint32_t>(mesh.indices.size() / 3);
         for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
-            if (mesh.indices[i] >= facts.vertices) {
+            if (mesh.indices[i] >= facts->vertices) {
                 return refuse("triangle " + std::to_string(i / 3) + " of the mesh uses vertex " +
-                              std::to_string(mesh.indices[i]) + ", the mesh has " + std::to_string(facts.vertices) +
+                              std::to_string(mesh.indices[i]) + ", the mesh has " + std::to_string(facts->vertices) +
                               " vertices");
             }
         }
-        for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-            facts.degenerate += isDegenerate(vertexOf(mesh, mesh.indices[i]), vertexOf(mesh, mesh.indices[i + 1]),
-                                             vertexOf(mesh, mesh.indices[i + 2]))
-                                    ? 1U
-                                    : 0U;
-        }
-        return facts;
+        Recentred floats = recentred(mesh.positions);
+        facts->degenerate = degenerateOf(floats.positions, mesh.indices);
+        facts->rounding = floats.origin.rounding;
+        return CheckedMesh{*facts, floats.origin, std::move(floats.positions)};
     });
+}
+
+Result<MeshFacts> checkMesh(const MeshView& mesh) {
+    const Result<CheckedMesh> checked = checkedMesh(mesh);
+    VOXTACT_TRY(checked);
+    return checked->facts;
 }
 
 } // namespace voxtact

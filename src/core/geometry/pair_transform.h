@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "shared.h"
+#include "exact/shared.h"
 #include "voxtact/data.h"
 
 namespace voxtact {

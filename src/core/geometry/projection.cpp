@@ -45,9 +45,9 @@ std::string dominantNeeds(const Grid& grid, std::uint32_t samplesPerVoxel) {
 }
 
 Result<void> checkSamples(std::uint32_t samplesPerVoxel) {
-    if (samplesPerVoxel < 1 || samplesPerVoxel > kMostSamplesPerVoxel) {
+    if (samplesPerVoxel < 1 || samplesPerVoxel > kMaxSamplesPerVoxel) {
         return refuse("the number of samples per voxel is " + std::to_string(samplesPerVoxel) + ", it must be 1 to " +
-                      std::to_string(kMostSamplesPerVoxel));
+                      std::to_string(kMaxSamplesPerVoxel));
     }
     return {};
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "shared.h"
+#include "exact/shared.h"
 #include "voxtact/data.h"
 #include "voxtact/methods.h"
 
@@ -34,7 +34,7 @@ class Cameras {
 /// "dominant-axis with 4 samples per voxel needs a viewport of 1024x1024"
 [[nodiscard]] std::string dominantNeeds(const Grid& grid, std::uint32_t samplesPerVoxel);
 
-/// Refuses samples per voxel outside of 1 to kMostSamplesPerVoxel.
+/// Refuses samples per voxel outside of 1 to kMaxSamplesPerVoxel.
 [[nodiscard]] Result<void> checkSamples(std::uint32_t samplesPerVoxel);
 
 } // namespace voxtact

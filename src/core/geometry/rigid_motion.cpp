@@ -101,7 +101,7 @@ Result<RigidMotion> RigidMotion::between(const Mat4& from, const Mat4& to, Inter
     const dmat3 change = dmat3(out.to_) * back;
     const dmat3 rotation = nearestRotation(change);
     const double off = largest(change - rotation);
-    if (!(off <= kMostDeformation) || !(glm::determinant(rotation) > 0)) {
+    if (!(off <= kMaxDeformation) || !(glm::determinant(rotation) > 0)) {
         return refuse(which + (std::isfinite(off)
                                    ? ": the motion from one to the other is not rigid (scale, shear or a "
                                      "mirror image); give poses of one scale"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "rigid_pose.h"
+#include "exact/rigid_pose.h"
 #include "voxtact/motion.h"
 
 #include <glm/mat3x3.hpp>
@@ -24,7 +24,7 @@ class RigidMotion {
     [[nodiscard]] static Result<RigidMotion> between(std::span<const Mat4> poses, std::size_t first,
                                                      Interpolation interpolation, const Box& bounds, std::size_t item);
 
-    /// As shaders have it.
+    /// In the terms of src/exact/rigid_pose.h.
     [[nodiscard]] shader::RigidWay way() const;
     /// world_from_object at a parameter from 0 to 1, to the last bit: at the ends as it was given, in between
     /// rigidPose() of the way.

@@ -7,17 +7,16 @@
 
 namespace voxtact {
 
-void fillShapeBetween(std::span<const float> from, std::span<const float> to, double parameter,
-                      std::vector<float>& out) {
+void fillShapeBetween(std::span<const double> from, std::span<const double> to, double parameter,
+                      std::vector<double>& out) {
     out.resize(from.size());
     for (std::size_t at = 0; at < from.size(); ++at) {
-        out[at] = static_cast<float>((1 - parameter) * static_cast<double>(from[at]) +
-                                     parameter * static_cast<double>(to[at]));
+        out[at] = (1 - parameter) * from[at] + parameter * to[at];
     }
 }
 
-Result<std::vector<float>> shapeBetween(std::span<const float> from, std::span<const float> to, double parameter) {
-    return guard([&]() -> Result<std::vector<float>> {
+Result<std::vector<double>> shapeBetween(std::span<const double> from, std::span<const double> to, double parameter) {
+    return guard([&]() -> Result<std::vector<double>> {
         if (!(parameter >= 0 && parameter <= 1)) {
             return refuse("the parameter " + number(parameter) + " is outside of 0 to 1");
         }
@@ -25,7 +24,7 @@ Result<std::vector<float>> shapeBetween(std::span<const float> from, std::span<c
             return refuse("the shapes have " + std::to_string(from.size()) + " and " + std::to_string(to.size()) +
                           " coordinates");
         }
-        std::vector<float> out;
+        std::vector<double> out;
         fillShapeBetween(from, to, parameter, out);
         return out;
     });

@@ -7,7 +7,7 @@
 namespace voxtact {
 
 /// voxtact::shapeBetween() of two shapes of one size and a parameter from 0 to 1.
-void fillShapeBetween(std::span<const float> from, std::span<const float> to, double parameter,
-                      std::vector<float>& out);
+void fillShapeBetween(std::span<const double> from, std::span<const double> to, double parameter,
+                      std::vector<double>& out);
 
 } // namespace voxtact

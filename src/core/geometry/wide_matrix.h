@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "pair_setup.h"
+#include "exact/pair_setup.h"
 #include "voxtact/data.h"
 
 #include <algorithm>

@@ -32,7 +32,7 @@ struct MethodRow {
     bool host;  ///< needs no device
     bool query; ///< an occlusion query counts, so that each pair is a draw of its own
     Coverage coverage;
-    bool certified; ///< can decide cells: answers the projection conservative
+    bool certified; ///< can decide cells: answers the projection certified
     Exactness exactness;
     Filter filter;       ///< the default
     std::uint32_t needs; ///< MethodNeed
@@ -66,7 +66,7 @@ inline constexpr std::array kProjectionTable{
     ProjectionRow{Projection::View, "view", true, 1, false, false},
     ProjectionRow{Projection::TwoView, "two-view", true, 2, false, false},
     ProjectionRow{Projection::DominantAxis, "dominant-axis", false, 1, true, false},
-    ProjectionRow{Projection::Conservative, "conservative", false, 1, false, true},
+    ProjectionRow{Projection::Certified, "certified", false, 1, false, true},
 };
 
 namespace detail {

@@ -3,8 +3,10 @@
 
 #include "core/method/method_table.h"
 #include "voxtact/area.h"
-#include "voxtact/clearance.h"
+#include "voxtact/distance.h"
 #include "voxtact/motion.h"
+#include "voxtact/overlap.h"
+#include "voxtact/results.h"
 
 namespace voxtact {
 
@@ -58,32 +60,6 @@ const char* toString(Boundary boundary) noexcept {
     return "unknown";
 }
 
-const char* toString(ClearanceEnd end) noexcept {
-    switch (end) {
-    case ClearanceEnd::Closed:
-        return "closed";
-    case ClearanceEnd::Beyond:
-        return "beyond";
-    case ClearanceEnd::Rounding:
-        return "rounding";
-    case ClearanceEnd::Budget:
-        return "budget";
-    }
-    return "unknown";
-}
-
-const char* toString(AreaEnd end) noexcept {
-    switch (end) {
-    case AreaEnd::Closed:
-        return "closed";
-    case AreaEnd::Rounding:
-        return "rounding";
-    case AreaEnd::Budget:
-        return "budget";
-    }
-    return "unknown";
-}
-
 const char* toString(Interpolation interpolation) noexcept {
     switch (interpolation) {
     case Interpolation::Screw:
@@ -102,6 +78,46 @@ const char* toString(MotionEnd end) noexcept {
         return "grazes";
     case MotionEnd::Budget:
         return "budget";
+    }
+    return "unknown";
+}
+
+const char* toString(StopReason reason) noexcept {
+    switch (reason) {
+    case StopReason::Closed:
+        return "closed";
+    case StopReason::Beyond:
+        return "beyond";
+    case StopReason::Rounding:
+        return "rounding";
+    case StopReason::Budget:
+        return "budget";
+    }
+    return "unknown";
+}
+
+const char* toString(Containment containment) noexcept {
+    switch (containment) {
+    case Containment::None:
+        return "none";
+    case Containment::Some:
+        return "some";
+    case Containment::All:
+        return "all";
+    case Containment::Undecided:
+        return "undecided";
+    }
+    return "unknown";
+}
+
+const char* toString(Verdict verdict) noexcept {
+    switch (verdict) {
+    case Verdict::No:
+        return "no";
+    case Verdict::Yes:
+        return "yes";
+    case Verdict::Undecided:
+        return "undecided";
     }
     return "unknown";
 }

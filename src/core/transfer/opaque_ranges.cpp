@@ -22,13 +22,11 @@ constexpr double kNormalisationError = 8.0 / (1 << 24);
 OpaqueRanges::OpaqueRanges(std::span<const float> table, const ValueRange& domain, double threshold, double largest)
     : domain_(domain), entryMargin_(kEntryMargin + kNormalisationError * static_cast<double>(table.size()) * largest /
                                                        (domain.hi - domain.lo)),
-      opaqueBefore_(table.size() + 1, 0), certainBefore_(table.size() + 1, 0) {
+      opaqueBefore_(table.size() + 1, 0) {
     const double safe = threshold - kOpacityMargin;
-    const double certain = threshold > 0 ? threshold + kOpacityMargin : 0;
     for (std::size_t i = 0; i < table.size(); ++i) {
         const auto opacity = static_cast<double>(table[i]);
         opaqueBefore_[i + 1] = opaqueBefore_[i] + (opacity >= safe ? 1U : 0U);
-        certainBefore_[i + 1] = certainBefore_[i] + (opacity >= certain ? 1U : 0U);
     }
 }
 
@@ -47,11 +45,6 @@ OpaqueRanges::Entries OpaqueRanges::entries(const ValueRange& range) const noexc
 bool OpaqueRanges::mayBeOpaque(const ValueRange& range) const noexcept {
     const Entries within = entries(range);
     return opaqueBefore_[within.last + 1] > opaqueBefore_[within.first];
-}
-
-bool OpaqueRanges::certainlyOpaque(const ValueRange& range) const noexcept {
-    const Entries within = entries(range);
-    return certainBefore_[within.last + 1] - certainBefore_[within.first] == within.last - within.first + 1;
 }
 
 } // namespace voxtact

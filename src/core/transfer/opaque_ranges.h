@@ -19,8 +19,7 @@ namespace voxtact {
 
 /// Which scalars of a transfer function's table can look up an opacity of at least a threshold, on the safe side:
 /// mayBeOpaque() is false only where no sampler, whatever the precision of its weights, returns an opaque sample for
-/// any scalar of the range, certainlyOpaque() is true only where every sampler returns an opaque sample for all of
-/// them. Kept as prefix counts over the table's entries, so that a question costs two look-ups.
+/// any scalar of the range. Kept as prefix counts over the table's entries, so that a question costs two look-ups.
 class OpaqueRanges {
   public:
     /// `table` as sampleTable() returns it. A threshold that is not positive makes every scalar opaque. `largest` is
@@ -29,8 +28,6 @@ class OpaqueRanges {
 
     /// Whether a scalar of the closed range (in the image's own units) may be opaque.
     [[nodiscard]] bool mayBeOpaque(const ValueRange& range) const noexcept;
-    /// Whether every scalar of the closed range is opaque.
-    [[nodiscard]] bool certainlyOpaque(const ValueRange& range) const noexcept;
     /// Whether no scalar at all is opaque: nothing is visible.
     [[nodiscard]] bool nothingOpaque() const noexcept { return opaqueBefore_.back() == 0; }
 
@@ -44,9 +41,8 @@ class OpaqueRanges {
     [[nodiscard]] Entries entries(const ValueRange& range) const noexcept;
 
     ValueRange domain_;
-    double entryMargin_;                       ///< entries to each side that a scalar may look up by rounding
-    std::vector<std::uint32_t> opaqueBefore_;  ///< [i]: opaque entries below i; one more element than entries
-    std::vector<std::uint32_t> certainBefore_; ///< the same of entries that are opaque beyond doubt
+    double entryMargin_;                      ///< entries to each side that a scalar may look up by rounding
+    std::vector<std::uint32_t> opaqueBefore_; ///< [i]: opaque entries below i; one more element than entries
 };
 
 } // namespace voxtact

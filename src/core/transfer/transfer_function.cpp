@@ -53,21 +53,35 @@ double opacityAt(std::span<const ControlPoint> points, double value) {
 
 } // namespace
 
+ValueRange tableDomain(const TransferFunctionDesc& desc) noexcept {
+    if (desc.domain.lo != 0 || desc.domain.hi != 0 || desc.points.empty() || desc.tableSize < 2) {
+        return desc.domain;
+    }
+    constexpr double kPart = 1.0 / 4096;
+    const double lo = desc.points.front().value;
+    const double hi = desc.points.back().value;
+    const double beyond =
+        lo < hi ? (hi - lo) / (desc.tableSize - 1) / 2 : (lo != 0 ? std::max(std::abs(lo), 1e-300) * kPart : kPart);
+    return {lo - beyond, hi + beyond};
+}
+
 Result<std::vector<float>> sampleTable(const TransferFunctionDesc& desc) {
     return guard([&]() -> Result<std::vector<float>> {
         // First the domain: points that are not given are made of its ends.
-        const ValueRange& domain = desc.domain;
-        VOXTACT_TRY(checkDomain(domain, "the transfer function's domain"));
+        const bool isGiven = desc.domain.lo != 0 || desc.domain.hi != 0;
+        VOXTACT_TRY(isGiven ? checkDomain(desc.domain, "the transfer function's domain") : Result<void>());
         VOXTACT_TRY(checkPoints(desc.points));
         if (desc.tableSize < 2) {
             return refuse("the transfer function's table has " + std::to_string(desc.tableSize) +
                           " entries, it needs at least 2");
         }
-        if (desc.tableSize > kMostTableSize) {
+        if (desc.tableSize > kMaxTableSize) {
             return Error{ErrorCode::LimitExceeded, 0,
                          "the transfer function's table has " + std::to_string(desc.tableSize) +
-                             " entries, the most is " + std::to_string(kMostTableSize)};
+                             " entries, the most is " + std::to_string(kMaxTableSize)};
         }
+        const ValueRange domain = tableDomain(desc);
+        VOXTACT_TRY(checkDomain(domain, "the range of the transfer function's points"));
         std::vector<float> table(desc.tableSize);
         for (std::uint32_t i = 0; i < desc.tableSize; ++i) {
             const double s = (i + 0.5) / desc.tableSize;

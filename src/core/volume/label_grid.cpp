@@ -2,7 +2,7 @@
 #include "core/volume/label_grid.h"
 #include "core/base/refuse.h"
 #include "core/base/try.h"
-#include "voxtact/clearance.h"
+#include "voxtact/distance.h"
 
 #include <cmath>
 
@@ -35,10 +35,10 @@ Result<void> checkLabelGrid(const Grid& labels, const Grid& volume, const std::s
 }
 
 Result<void> checkMeasuredLabels(std::span<const std::int32_t> labels) {
-    if (labels.size() > kMostMeasuredLabels) {
+    if (labels.size() > kMaxMeasuredLabels) {
         return Error{ErrorCode::LimitExceeded, 0,
                      std::to_string(labels.size()) + " labels are asked for, one call measures at most " +
-                         std::to_string(kMostMeasuredLabels) + "; ask for fewer"};
+                         std::to_string(kMaxMeasuredLabels) + "; ask for fewer"};
     }
     return {};
 }

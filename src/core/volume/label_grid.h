@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-/// What clearances to labels ask of label maps, on the host and on a device.
+/// What clearances to labels ask of label maps.
 namespace voxtact {
 
 [[nodiscard]] Error notOnGrid(const std::string& which);
@@ -15,7 +15,7 @@ namespace voxtact {
 /// are less than a ten-thousandth of one apart are the same. `which` begins the text of a refusal.
 [[nodiscard]] Result<void> checkLabelGrid(const Grid& labels, const Grid& volume, const std::string& which);
 
-/// Refuses more than kMostMeasuredLabels labels.
+/// Refuses more than kMaxMeasuredLabels labels.
 [[nodiscard]] Result<void> checkMeasuredLabels(std::span<const std::int32_t> labels);
 /// Refuses an item without a label map. `which` begins the text.
 [[nodiscard]] Error noLabelsToMeasure(const std::string& which);

@@ -18,8 +18,8 @@ const char* toString(Safety safety) noexcept {
         return "unsafe";
     case Safety::Safe:
         return "safe";
-    case Safety::Possible:
-        return "possible";
+    case Safety::Undecided:
+        return "undecided";
     }
     return "unknown";
 }

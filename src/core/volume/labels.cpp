@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 namespace voxtact {
 
@@ -16,6 +17,12 @@ namespace {
 
 constexpr double kLargestLabel = 1 << 24;
 constexpr std::size_t kMostLabels = 65536;
+
+Error tooManyLabels(const std::string& count) {
+    return {ErrorCode::LimitExceeded, 0,
+            "the label map has " + count + " different labels (0 among them), at most " + std::to_string(kMostLabels) +
+                " can be told apart"};
+}
 
 /// Refuses floats that are no labels.
 template <class Scalar> Result<void> checkWhole(const Grid& grid, const Scalar* voxels) {
@@ -53,9 +60,7 @@ template <class Scalar> Result<void> fill(const Scalar* voxels, Census& census, 
     }
     const auto labels = static_cast<std::size_t>(std::count(census.used.begin(), census.used.end(), true));
     if (labels > kMostLabels) {
-        return Error{ErrorCode::LimitExceeded, 0,
-                     "the label map has " + std::to_string(labels) + " different labels (0 among them), at most " +
-                         std::to_string(kMostLabels) + " can be told apart"};
+        return tooManyLabels(std::to_string(labels));
     }
     census.numbers.resize(census.used.size());
     for (std::size_t place = 0; place < census.used.size(); ++place) {
@@ -85,6 +90,48 @@ Result<LabelData> makeLabels(const VolumeView& volume) {
             return fill(voxels, census, out);
         });
         VOXTACT_TRY(made);
+        return out;
+    });
+}
+
+Result<LabelData> makeLabels(const Grid& grid, std::span<const std::int32_t> labels) {
+    return guard([&]() -> Result<LabelData> {
+        VOXTACT_TRY(checkGrid(grid));
+        if (labels.size() != voxelCount(grid)) {
+            return refuse("a label map of " + std::to_string(voxelCount(grid)) + " voxels has " +
+                          std::to_string(labels.size()) + " labels");
+        }
+        // Neighbours mostly have one label.
+        std::unordered_map<std::int32_t, std::uint16_t> numbers{{0, 0}};
+        std::int32_t last = 0;
+        for (const std::int32_t label : labels) {
+            if (label != last) {
+                numbers.emplace(label, std::uint16_t{0});
+                last = label;
+            }
+            if (numbers.size() > kMostLabels) {
+                return tooManyLabels("more than " + std::to_string(kMostLabels));
+            }
+        }
+        LabelData out;
+        out.grid = grid;
+        for (const auto& [label, number] : numbers) {
+            out.values.push_back(label);
+        }
+        std::sort(out.values.begin(), out.values.end());
+        for (std::size_t i = 0; i < out.values.size(); ++i) {
+            numbers[out.values[i]] = static_cast<std::uint16_t>(i);
+        }
+        out.indices.reserve(labels.size());
+        last = 0;
+        std::uint16_t number = numbers[0];
+        for (const std::int32_t label : labels) {
+            if (label != last) {
+                number = numbers[label];
+                last = label;
+            }
+            out.indices.push_back(number);
+        }
         return out;
     });
 }

@@ -3,6 +3,7 @@
 
 #include "io/byte_source.h"
 #include "io/errors.h"
+#include "io/text/base64.h"
 #include "io/text/text_lines.h"
 
 #include <algorithm>
@@ -63,49 +64,12 @@ GlbChunks splitGlb(std::string_view content) {
 
 /// Extensions that a file may require: what a surface looks like, lights, and what is implemented here.
 bool isHarmless(const std::string& extension) {
-    constexpr std::array<std::string_view, 10> kKnown{
+    constexpr std::array<std::string_view, 11> kKnown{
         "KHR_mesh_quantization", "KHR_texture_transform", "KHR_texture_basisu", "KHR_lights_punctual",
         "KHR_xmp_json_ld",       "EXT_texture_webp",      "EXT_texture_avif",   "EXT_lights_image_based",
-        "MSFT_texture_dds",      "KHR_animation_pointer"};
+        "MSFT_texture_dds",      "KHR_animation_pointer", "KHR_node_visibility"};
     return extension.starts_with("KHR_materials_") ||
            std::find(kKnown.begin(), kKnown.end(), extension) != kKnown.end();
-}
-
-int base64Digit(char c) {
-    if (c >= 'A' && c <= 'Z') {
-        return c - 'A';
-    }
-    if (c >= 'a' && c <= 'z') {
-        return c - 'a' + 26;
-    }
-    if (c >= '0' && c <= '9') {
-        return c - '0' + 52;
-    }
-    return c == '+' ? 62 : c == '/' ? 63 : -1;
-}
-
-std::string decodedBase64(std::string_view text) {
-    std::string bytes;
-    bytes.reserve(text.size() / 4 * 3 + 3);
-    std::uint32_t bits = 0;
-    unsigned held = 0;
-    const std::string_view digits = text.substr(0, text.find('='));
-    if (text.substr(digits.size()).find_first_not_of('=') != std::string_view::npos || digits.size() % 4 == 1) {
-        throw GltfRefusal{"a buffer's base64 is damaged"};
-    }
-    for (const char c : digits) {
-        const int digit = base64Digit(c);
-        if (digit < 0) {
-            throw GltfRefusal{"a buffer's base64 is damaged"};
-        }
-        bits = bits << 6U | static_cast<std::uint32_t>(digit);
-        held += 6;
-        if (held >= 8) {
-            held -= 8;
-            bytes += static_cast<char>(bits >> held & 0xFFU);
-        }
-    }
-    return bytes;
 }
 
 /// A relative reference with its escapes (%20) taken out.
@@ -201,7 +165,11 @@ std::string GltfDocument::load(std::uint64_t index, const std::string& uri) cons
         if (comma == std::string::npos) {
             throw GltfRefusal{"the data of buffer " + std::to_string(index) + " is not base64"};
         }
-        return decodedBase64(std::string_view(uri).substr(comma + 8));
+        std::optional<std::string> bytes = decodedBase64(std::string_view(uri).substr(comma + 8));
+        if (!bytes) {
+            throw GltfRefusal{"a buffer's base64 is damaged"};
+        }
+        return std::move(*bytes);
     }
     const std::filesystem::path path = pathOf(uri);
     if (!source_.other) {

@@ -69,6 +69,13 @@ Mat4 parentFromNode(const GltfJson& json, const std::string& node) {
     return scale ? multiply(result, translationAndScale({0, 0, 0}, *scale)) : result;
 }
 
+/// With everything below it.
+bool isHidden(const GltfJson& node) {
+    const GltfJson* const extensions = member(node, "extensions");
+    const GltfJson* const visibility = extensions == nullptr ? nullptr : member(*extensions, "KHR_node_visibility");
+    return visibility != nullptr && member(*visibility, "visible") != nullptr && !flag(*visibility, "visible");
+}
+
 } // namespace
 
 GltfScene::GltfScene(const GltfDocument& document) : document_(document) {
@@ -171,6 +178,7 @@ std::vector<GltfPlacement> GltfScene::placements(std::vector<std::string>& notes
     std::vector<std::uint64_t> pending = roots(notes);
     std::reverse(pending.begin(), pending.end());
     std::vector<bool> isPlaced(meshes);
+    std::uint64_t hidden = 0;
     while (!pending.empty()) {
         const std::uint64_t node = pending.back();
         pending.pop_back();
@@ -180,12 +188,20 @@ std::vector<GltfPlacement> GltfScene::placements(std::vector<std::string>& notes
             throw GltfRefusal{"node " + std::to_string(node) +
                               " is repeated by EXT_mesh_gpu_instancing, which is not supported; export it without"};
         }
+        if (isHidden(json)) {
+            ++hidden;
+            continue;
+        }
         if (const std::optional<std::uint64_t> mesh = natural(json, "mesh")) {
             static_cast<void>(document_.item("meshes", *mesh));
             placed.push_back({*mesh, node, world_from_node_[node]});
             isPlaced[*mesh] = true;
         }
         pending.insert(pending.end(), children_[node].rbegin(), children_[node].rend());
+    }
+    if (hidden != 0) {
+        notes.push_back(std::to_string(hidden) + (hidden == 1 ? " hidden node" : " hidden nodes") +
+                        " (KHR_node_visibility) left out, with what is below");
     }
     if (const auto left = std::count(isPlaced.begin(), isPlaced.end(), false); left != 0) {
         notes.push_back(std::to_string(left) + " meshes that are not in the scene left out");

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,8 +28,23 @@ struct MeshFile {
     std::vector<std::uint32_t> corners;   ///< vertices of one face after the other
     std::vector<std::uint32_t> faceSizes; ///< corners of each face
     std::uint64_t pointsAndLines = 0;     ///< left out
+    bool saysLps = false;                 ///< a header has SPACE=LPS
+    bool saysRas = false;
     std::vector<std::string> notes;
 };
+
+inline constexpr std::string_view kPadding(" \t\v\f\r\n\0", 7);
+
+/// Takes what a comment or a header says of the space.
+void takeSpace(std::string_view comment, MeshFile& file);
+
+/// Adds the triangles of a strip: every second one is turned, so that all turn as the first does.
+void addStrip(std::span<const std::uint32_t> strip, MeshFile& file);
+
+/// True if nothing but white space and zeros follows the mesh; notes zeros.
+[[nodiscard]] bool takePadding(std::string_view rest, MeshFile& file);
+/// The content without white space and zeros at its end; notes zeros.
+[[nodiscard]] std::string_view withoutPadding(std::string_view content, MeshFile& file);
 
 /// One reader for each format: it refuses what it does not understand, with its place.
 [[nodiscard]] Result<MeshFile> readStl(const MeshSource& source);
@@ -36,6 +52,8 @@ struct MeshFile {
 [[nodiscard]] Result<MeshFile> readPly(const MeshSource& source);
 [[nodiscard]] Result<MeshFile> readOff(const MeshSource& source);
 [[nodiscard]] Result<MeshFile> readGltf(const MeshSource& source);
+[[nodiscard]] Result<MeshFile> readVtk(const MeshSource& source);
+[[nodiscard]] Result<MeshFile> readVtp(const MeshSource& source);
 /// By the ending.
 [[nodiscard]] Result<MeshFile> readMeshFile(const MeshSource& source);
 

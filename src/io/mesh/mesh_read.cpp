@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/guard.h"
 #include "core/base/refuse.h"
+#include "core/base/text.h"
 #include "core/base/try.h"
 #include "io/errors.h"
 #include "io/mesh/mesh_file.h"
@@ -18,19 +19,35 @@ namespace voxtact::io {
 
 namespace {
 
-Mat4 objectFromFile(const MeshReadOptions& options) {
-    const double flip = options.space == MeshSpace::RAS ? -options.scale : options.scale;
+Mat4 objectFromFile(MeshSpace space, double scale) {
+    const double flip = space == MeshSpace::RAS ? -scale : scale;
     Mat4 matrix = identity();
     matrix[0] = flip;
     matrix[5] = flip;
-    matrix[10] = options.scale;
+    matrix[10] = scale;
     return matrix;
 }
 
+/// What the user says, else what the file says, else LPS.
+Result<MeshSpace> spaceOf(const std::filesystem::path& path, const MeshReadOptions& options, MeshFile& file) {
+    if (file.saysLps && file.saysRas) {
+        return cannotRead(path, "it says both SPACE=LPS and SPACE=RAS; mend it");
+    }
+    const MeshSpace said = file.saysRas ? MeshSpace::RAS : MeshSpace::LPS;
+    if ((file.saysLps || file.saysRas) && options.space.value_or(said) != said) {
+        return cannotRead(path, std::string("it says SPACE=") + (file.saysRas ? "RAS, and LPS" : "LPS, and RAS") +
+                                    " is asked for; leave the space out");
+    }
+    if (file.saysRas && !options.space) {
+        file.notes.emplace_back("the file says SPACE=RAS: x and y are negated");
+    }
+    return options.space.value_or(said);
+}
+
 struct PositionHash {
-    std::size_t operator()(const std::array<std::uint32_t, 3>& bits) const noexcept {
+    std::size_t operator()(const std::array<std::uint64_t, 3>& bits) const noexcept {
         std::uint64_t hash = 0;
-        for (const std::uint32_t word : bits) {
+        for (const std::uint64_t word : bits) {
             hash = (hash ^ word) * 0x9E3779B97F4A7C15ULL;
             hash ^= hash >> 32;
         }
@@ -100,15 +117,15 @@ class Gatherer {
 
     bool addCorner(const Vec3& corner) {
         const Vec3 point = transformPoint(object_from_file_, corner);
-        std::array<std::uint32_t, 3> bits{};
-        std::array<float, 3> position{};
+        std::array<std::uint64_t, 3> bits{};
+        Vec3 position{};
         for (std::size_t i = 0; i < 3; ++i) {
-            // Adding zero makes -0 a plain 0, which negated axes would otherwise keep apart.
-            position[i] = static_cast<float>(point[i]) + 0.0F;
-            if (!std::isfinite(position[i])) {
+            if (!std::isfinite(static_cast<float>(point[i]))) {
                 return false;
             }
-            bits[i] = std::bit_cast<std::uint32_t>(position[i]);
+            // Adding zero makes -0 a plain 0, which negated axes would otherwise keep apart.
+            position[i] = point[i] + 0.0;
+            bits[i] = std::bit_cast<std::uint64_t>(position[i]);
         }
         const auto next = static_cast<std::uint32_t>(mesh_.positions.size() / 3);
         const auto [entry, isNew] = vertices_.try_emplace(bits, next);
@@ -124,7 +141,7 @@ class Gatherer {
     MeshData& mesh_;
     std::vector<Vec3> polygon_;
     std::vector<std::array<std::uint32_t, 3>> triangles_;
-    std::unordered_map<std::array<std::uint32_t, 3>, std::uint32_t, PositionHash> vertices_;
+    std::unordered_map<std::array<std::uint64_t, 3>, std::uint32_t, PositionHash> vertices_;
 };
 
 Result<MeshData> makeMesh(const MeshSource& source, const MeshReadOptions& options) {
@@ -136,20 +153,57 @@ Result<MeshData> makeMesh(const MeshSource& source, const MeshReadOptions& optio
     if (file->faceSizes.empty()) {
         return cannotRead(source.path, "it holds no triangle");
     }
+    const Result<MeshSpace> space = spaceOf(source.path, options, *file);
+    VOXTACT_TRY(space);
     MeshData mesh;
     mesh.name = source.path.filename().string();
     mesh.notes = std::move(file->notes);
     if (file->pointsAndLines != 0) {
         mesh.notes.push_back(std::to_string(file->pointsAndLines) + " points or lines left out");
     }
-    const Mat4 object_from_file = objectFromFile(options);
+    const Mat4 object_from_file = objectFromFile(*space, options.scale);
     if (const auto reason = Gatherer(*file, object_from_file, mesh).gather()) {
         return cannotRead(source.path, *reason);
+    }
+    const Result<MeshFacts> facts = checkMesh(mesh.view());
+    VOXTACT_TRY(facts);
+    if (std::string note = roundingNote(*facts); !note.empty()) {
+        mesh.notes.push_back(std::move(note));
     }
     return mesh;
 }
 
 } // namespace
+
+void takeSpace(std::string_view comment, MeshFile& file) {
+    file.saysLps = file.saysLps || comment.find("SPACE=LPS") != std::string_view::npos;
+    file.saysRas = file.saysRas || comment.find("SPACE=RAS") != std::string_view::npos;
+}
+
+void addStrip(std::span<const std::uint32_t> strip, MeshFile& file) {
+    for (std::size_t i = 0; i + 2 < strip.size(); ++i) {
+        const std::size_t odd = i % 2;
+        file.corners.insert(file.corners.end(), {strip[i + odd], strip[i + 1 - odd], strip[i + 2]});
+        file.faceSizes.push_back(3);
+    }
+}
+
+bool takePadding(std::string_view rest, MeshFile& file) {
+    if (rest.find_first_not_of(kPadding) != std::string_view::npos) {
+        return false;
+    }
+    if (rest.find('\0') != std::string_view::npos) {
+        file.notes.push_back(std::to_string(rest.size()) + " bytes of zeros and white space behind the mesh left out");
+    }
+    return true;
+}
+
+std::string_view withoutPadding(std::string_view content, MeshFile& file) {
+    const std::size_t last = content.find_last_not_of(kPadding);
+    const std::size_t length = last == std::string_view::npos ? 0 : last + 1;
+    static_cast<void>(takePadding(content.substr(length), file));
+    return content.substr(0, length);
+}
 
 Result<MeshFile> readMeshFile(const MeshSource& source) {
     if (source.content.empty()) {
@@ -171,7 +225,21 @@ Result<MeshFile> readMeshFile(const MeshSource& source) {
     if (ending == ".gltf" || ending == ".glb") {
         return readGltf(source);
     }
-    return cannotRead(source.path, "its ending is none of .stl, .obj, .ply, .off, .gltf and .glb; convert it");
+    if (ending == ".vtk") {
+        return readVtk(source);
+    }
+    if (ending == ".vtp") {
+        return readVtp(source);
+    }
+    return cannotRead(source.path,
+                      "its ending is none of .stl, .obj, .ply, .off, .vtk, .vtp, .gltf and .glb; convert it");
+}
+
+std::string roundingNote(const MeshFacts& facts) {
+    if (!(facts.rounding > kNotedRounding)) {
+        return {};
+    }
+    return "vertices rounded by up to " + number(facts.rounding) + " to fit single precision, in units of the mesh";
 }
 
 Result<MeshData> readMesh(const std::filesystem::path& path, const MeshReadOptions& options) {

@@ -5,7 +5,6 @@
 #include "io/text/text_lines.h"
 
 #include <charconv>
-#include <cmath>
 
 namespace voxtact::io {
 
@@ -32,21 +31,6 @@ Result<std::string_view> meshText(const std::filesystem::path& path, std::string
         return cannotRead(path, "it is not text, or it is damaged (it holds a zero byte)");
     }
     return content.substr(content.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0);
-}
-
-std::optional<std::string> parseCoordinate(std::string_view token, double& value) {
-    if (std::optional<std::string> reason = parseNumber(token, value)) {
-        return reason;
-    }
-    // Rounded to a double first, a number just beside the middle of two floats may come to lie on it, and go the wrong
-    // way from there. A step of one double puts it back on its side.
-    const std::string_view digits = token.substr(token.starts_with('+') ? 1 : 0);
-    float nearest = 0;
-    if (std::from_chars(digits.data(), digits.data() + digits.size(), nearest).ec == std::errc{} &&
-        static_cast<float>(value) != nearest) {
-        value = std::nextafter(value, static_cast<double>(nearest));
-    }
-    return std::nullopt;
 }
 
 std::optional<std::uint64_t> parseNatural(std::string_view token) {

@@ -29,10 +29,6 @@ class TextLines {
 /// The text without its byte order mark; refuses what is not in ASCII or UTF-8.
 [[nodiscard]] Result<std::string_view> meshText(const std::filesystem::path& path, std::string_view content);
 
-/// parseNumber() for coordinates: rounding `value` to a float gives the float that is nearest to the number as it is
-/// written.
-[[nodiscard]] std::optional<std::string> parseCoordinate(std::string_view token, double& value);
-
 /// The natural number that the whole token spells.
 [[nodiscard]] std::optional<std::uint64_t> parseNatural(std::string_view token);
 

@@ -3,6 +3,7 @@
 #include "io/errors.h"
 #include "voxtact/io.h"
 
+#include <algorithm>
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -21,15 +22,20 @@ template <class Number> void append(std::string& bytes, Number number) {
     bytes.append(raw, sizeof raw);
 }
 
-/// The shortest text that reads back as the same float.
-void appendText(std::string& text, float value) {
+bool isFloat(double value) {
+    return static_cast<double>(static_cast<float>(value)) == value;
+}
+
+/// The shortest text that reads back as the same double.
+void appendText(std::string& text, double value) {
     char digits[32];
     text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
 }
 
 std::array<float, 3> positionOf(const MeshView& mesh, std::uint32_t vertex) {
     const std::size_t at = std::size_t{3} * vertex;
-    return {mesh.positions[at], mesh.positions[at + 1], mesh.positions[at + 2]};
+    return {static_cast<float>(mesh.positions[at]), static_cast<float>(mesh.positions[at + 1]),
+            static_cast<float>(mesh.positions[at + 2])};
 }
 
 /// Zero for a degenerate triangle, as the format asks.
@@ -64,12 +70,18 @@ void writeStl(std::ostream& stream, const MeshView& mesh) {
 }
 
 void writePly(std::ostream& stream, const MeshView& mesh) {
-    std::string bytes =
-        "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(mesh.positions.size() / 3) +
-        "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
-        std::to_string(mesh.indices.size() / 3) + "\nproperty list uchar uint vertex_indices\nend_header\n";
-    for (const float coordinate : mesh.positions) {
-        append(bytes, coordinate);
+    const bool areFloats = std::ranges::all_of(mesh.positions, isFloat);
+    const std::string type = areFloats ? "float" : "double";
+    std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " +
+                        std::to_string(mesh.positions.size() / 3) + "\nproperty " + type + " x\nproperty " + type +
+                        " y\nproperty " + type + " z\nelement face " + std::to_string(mesh.indices.size() / 3) +
+                        "\nproperty list uchar uint vertex_indices\nend_header\n";
+    for (const double coordinate : mesh.positions) {
+        if (areFloats) {
+            append(bytes, static_cast<float>(coordinate));
+        } else {
+            append(bytes, coordinate);
+        }
     }
     for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
         if (i % 3 == 0) {

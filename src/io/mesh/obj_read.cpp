@@ -31,7 +31,9 @@ class ObjReader {
   public:
     /// The reason why the line cannot be used.
     std::optional<std::string> take(std::string_view line, std::uint64_t number) {
-        splitTokens(line.substr(0, line.find('#')), tokens_);
+        const std::size_t comment = std::min(line.find('#'), line.size());
+        takeSpace(line.substr(comment), file_);
+        splitTokens(line.substr(0, comment), tokens_);
         if (tokens_.empty()) {
             return std::nullopt;
         }
@@ -71,7 +73,7 @@ class ObjReader {
     std::optional<std::string> vertex() {
         std::array<double, 6> values{};
         for (std::size_t i = 1; i < tokens_.size(); ++i) {
-            if (auto reason = parseCoordinate(tokens_[i], values[std::min<std::size_t>(i - 1, 5)])) {
+            if (auto reason = parseNumber(tokens_[i], values[std::min<std::size_t>(i - 1, 5)])) {
                 return reason;
             }
         }

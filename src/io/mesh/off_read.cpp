@@ -13,7 +13,8 @@ namespace {
 
 class OffReader {
   public:
-    OffReader(const std::filesystem::path& path, std::string_view text) : path_(path), lines_(text) {}
+    OffReader(const std::filesystem::path& path, std::string_view text, MeshFile file)
+        : path_(path), lines_(text), file_(std::move(file)) {}
 
     Result<MeshFile> read() {
         std::uint64_t vertices = 0;
@@ -55,10 +56,16 @@ class OffReader {
     }
 
     Result<void> readHeader(std::uint64_t& vertices, std::uint64_t& faces) {
-        if (!nextTokens() || tokens_[0] != "OFF" || (tokens_.size() > 1 && tokens_[1] == "BINARY")) {
-            return cannotRead(path_, "it is not a plain OFF file in text (it does not begin with OFF)");
+        if (!nextTokens() || !takeKeyword(tokens_[0]) || (tokens_.size() > 1 && tokens_[1] == "BINARY")) {
+            return cannotRead(path_,
+                              "it is not a plain OFF file in text (it does not begin with OFF, or with ST, C and "
+                              "N before that)");
         }
-        tokens_.erase(tokens_.begin());
+        // "OFF6 2 0" is common.
+        tokens_[0].remove_prefix(tokens_[0].find("OFF") + 3);
+        if (tokens_[0].empty()) {
+            tokens_.erase(tokens_.begin());
+        }
         if (tokens_.empty() && !nextTokens()) {
             tokens_.clear();
         }
@@ -74,6 +81,25 @@ class OffReader {
         return cannotRead(path_, "its OFF header does not state the numbers of vertices and faces");
     }
 
+    /// OFF; before it, ST for texture coordinates, C for colours and N for normals of the vertices.
+    bool takeKeyword(std::string_view word) {
+        const std::size_t off = word.find("OFF");
+        if (off == std::string_view::npos || word.find_first_not_of("0123456789", off + 3) != std::string_view::npos) {
+            return false;
+        }
+        for (std::string_view before = word.substr(0, off); !before.empty();) {
+            const bool texture = before.starts_with("ST");
+            const bool colours = before.starts_with('C');
+            if (!texture && !colours && !before.starts_with('N')) {
+                return false;
+            }
+            least_ += texture ? 2 : 3;
+            most_ += texture ? 2 : colours ? 4 : 3; // with alpha or without
+            before.remove_prefix(texture ? 2 : 1);
+        }
+        return true;
+    }
+
     [[nodiscard]] Error truncated(std::uint64_t present, std::uint64_t stated, const std::string& what) const {
         return cannotRead(path_, "it is truncated: it has " + std::to_string(present) + " of " +
                                      std::to_string(stated) + " " + what);
@@ -82,12 +108,18 @@ class OffReader {
     std::optional<std::string> takeVertex() {
         Vec3 vertex{};
         for (std::size_t i = 0; i < std::min<std::size_t>(tokens_.size(), 3); ++i) {
-            if (auto reason = parseCoordinate(tokens_[i], vertex[i])) {
+            if (auto reason = parseNumber(tokens_[i], vertex[i])) {
                 return reason;
             }
         }
         file_.vertices.push_back(vertex);
-        return tokens_.size() == 3 ? std::nullopt : std::optional<std::string>("a vertex has 3 coordinates");
+        if (tokens_.size() >= least_ && tokens_.size() <= most_) {
+            return std::nullopt;
+        }
+        return least_ == 3 ? "a vertex has 3 coordinates"
+                           : "a vertex of this kind of OFF has " + std::to_string(least_) +
+                                 (most_ == least_ ? "" : " to " + std::to_string(most_)) + " numbers, this one has " +
+                                 std::to_string(tokens_.size());
     }
 
     /// What follows the corners is a colour.
@@ -111,15 +143,19 @@ class OffReader {
     const std::filesystem::path& path_;
     TextLines lines_;
     std::vector<std::string_view> tokens_;
+    std::size_t least_ = 3; ///< numbers of a vertex, coordinates first
+    std::size_t most_ = 3;
     MeshFile file_;
 };
 
 } // namespace
 
 Result<MeshFile> readOff(const MeshSource& source) {
-    const Result<std::string_view> text = meshText(source.path, source.content);
+    // The header states all that is read, so that zeros behind it hide nothing.
+    MeshFile file;
+    const Result<std::string_view> text = meshText(source.path, withoutPadding(source.content, file));
     VOXTACT_TRY(text);
-    return OffReader(source.path, *text).read();
+    return OffReader(source.path, *text, std::move(file)).read();
 }
 
 } // namespace voxtact::io

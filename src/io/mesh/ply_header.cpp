@@ -21,6 +21,7 @@ std::optional<PlyType> typeNamed(std::string_view name) {
     constexpr Named kTypes[] = {{"char", "int8", PlyType::Int8},      {"uchar", "uint8", PlyType::UInt8},
                                 {"short", "int16", PlyType::Int16},   {"ushort", "uint16", PlyType::UInt16},
                                 {"int", "int32", PlyType::Int32},     {"uint", "uint32", PlyType::UInt32},
+                                {"long", "int64", PlyType::Int64},    {"ulong", "uint64", PlyType::UInt64},
                                 {"float", "float32", PlyType::Float}, {"double", "float64", PlyType::Double}};
     const auto* const found = std::find_if(std::begin(kTypes), std::end(kTypes), [&](const Named& named) {
         return name == named.first || name == named.second;
@@ -34,6 +35,9 @@ class HeaderReader {
     std::optional<std::string> take(const Tokens& tokens) {
         const std::string_view word = tokens[0];
         if (word == "comment" || word == "obj_info") {
+            for (const std::string_view token : tokens) {
+                header_.comments += " " + std::string(token);
+            }
             return std::nullopt;
         }
         if (word == "format" && tokens.size() == 3) {

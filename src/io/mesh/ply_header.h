@@ -9,7 +9,7 @@
 namespace voxtact::io {
 
 enum class PlyStorage { Ascii, LittleEndian, BigEndian };
-enum class PlyType { Int8, UInt8, Int16, UInt16, Int32, UInt32, Float, Double };
+enum class PlyType { Int8, UInt8, Int16, UInt16, Int32, UInt32, Int64, UInt64, Float, Double };
 
 struct PlyProperty {
     std::string name;
@@ -26,10 +26,11 @@ struct PlyElement {
 struct PlyHeader {
     PlyStorage storage = PlyStorage::Ascii;
     std::vector<PlyElement> elements;
+    std::string comments; ///< in one line
 };
 
 [[nodiscard]] constexpr std::size_t plyBytes(PlyType type) {
-    constexpr std::size_t kBytes[] = {1, 1, 2, 2, 4, 4, 4, 8};
+    constexpr std::size_t kBytes[] = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
     return kBytes[static_cast<std::size_t>(type)];
 }
 

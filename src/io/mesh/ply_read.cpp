@@ -29,7 +29,8 @@ class Body {
     virtual ~Body() = default;
     /// The reason why there is no such row.
     virtual std::optional<std::string> take(const PlyElement& element, Row& row) = 0;
-    [[nodiscard]] virtual bool isAtEnd() const = 0;
+    /// What follows the last row.
+    [[nodiscard]] virtual std::string_view rest() const = 0;
 };
 
 constexpr const char* kTruncated = "the file is truncated; get it again";
@@ -72,7 +73,7 @@ class TextBody final : public Body {
                              : std::optional<std::string>("its line has more numbers than the header states");
     }
 
-    [[nodiscard]] bool isAtEnd() const override { return trimmed(lines_.rest()).empty(); }
+    [[nodiscard]] std::string_view rest() const override { return lines_.rest(); }
 
   private:
     [[nodiscard]] std::string tooFew() const {
@@ -82,7 +83,7 @@ class TextBody final : public Body {
     static std::optional<std::string> parse(std::span<const std::string_view> tokens, std::vector<double>& values) {
         values.resize(tokens.size());
         for (std::size_t i = 0; i < tokens.size(); ++i) {
-            if (auto reason = parseCoordinate(tokens[i], values[i])) {
+            if (auto reason = parseNumber(tokens[i], values[i])) {
                 return reason;
             }
         }
@@ -107,8 +108,9 @@ class BinaryBody final : public Body {
                     return kTruncated;
                 }
                 const double stated = next(*property.countType);
-                if (stated < 0) {
-                    return "the length of a list is negative";
+                constexpr double kFar = 1e15; // no file is that long
+                if (!(stated >= 0 && stated < kFar)) {
+                    return "the length of a list is negative or beyond all reason";
                 }
                 count = static_cast<std::uint64_t>(stated);
             }
@@ -128,8 +130,7 @@ class BinaryBody final : public Body {
         return std::nullopt;
     }
 
-    /// Some programs end the file with an empty line.
-    [[nodiscard]] bool isAtEnd() const override { return rest_.find_first_not_of("\r\n") == std::string_view::npos; }
+    [[nodiscard]] std::string_view rest() const override { return rest_; }
 
   private:
     template <class Number> double number() {
@@ -152,6 +153,10 @@ class BinaryBody final : public Body {
             return number<std::int32_t>();
         case PlyType::UInt32:
             return number<std::uint32_t>();
+        case PlyType::Int64:
+            return number<std::int64_t>();
+        case PlyType::UInt64:
+            return number<std::uint64_t>();
         case PlyType::Float:
             return number<float>();
         case PlyType::Double:
@@ -178,6 +183,7 @@ class PlyReader {
 
     /// The reason why the file cannot be used.
     std::optional<std::string> read() {
+        takeSpace(header_.comments, file_);
         for (const PlyElement& element : header_.elements) {
             vertices_ = element.name == "vertex" ? element.count : vertices_;
         }
@@ -185,9 +191,6 @@ class PlyReader {
             return "it states more vertices than 32 bits count";
         }
         for (const PlyElement& element : header_.elements) {
-            if (element.name == "tristrips" && element.count != 0) {
-                return "it holds triangle strips, which are not supported; write faces";
-            }
             if (element.properties.empty() && element.count != 0) {
                 return "its element " + inQuotes(element.name) + " has no properties";
             }
@@ -195,7 +198,8 @@ class PlyReader {
                 return reason;
             }
         }
-        return body_.isAtEnd() ? std::nullopt : std::optional<std::string>("it holds more than its header states");
+        return takePadding(body_.rest(), file_) ? std::nullopt
+                                                : std::optional<std::string>("it holds more than its header states");
     }
 
     [[nodiscard]] MeshFile& file() noexcept { return file_; }
@@ -214,11 +218,12 @@ class PlyReader {
                 }
                 row.wanted[place] = true;
             }
-        } else if (element.name == "face" && element.count != 0) {
+        } else if ((element.name == "face" || element.name == "tristrips") && element.count != 0) {
             corners = std::min(placeOf(element, "vertex_indices"), placeOf(element, "vertex_index"));
             if (corners == kNone || !element.properties[corners].countType ||
                 element.properties[corners].type >= PlyType::Float) {
-                return "its faces have no list vertex_indices of whole numbers";
+                return "its " + std::string(element.name == "face" ? "faces" : "tristrips") +
+                       " have no list vertex_indices of whole numbers";
             }
             row.wanted[corners] = true;
         } else if (element.name == "edge") {
@@ -229,7 +234,7 @@ class PlyReader {
             if (!reason && element.name == "vertex") {
                 file_.vertices.push_back({row.values[xyz[0]][0], row.values[xyz[1]][0], row.values[xyz[2]][0]});
             } else if (!reason && corners != kNone) {
-                reason = addFace(row.values[corners]);
+                reason = element.name == "face" ? addFace(row.values[corners]) : addStrips(row.values[corners]);
             }
             if (reason) {
                 return std::string(trimmed(element.name.substr(0, 40))) + " " + std::to_string(i) + ": " + *reason;
@@ -243,14 +248,40 @@ class PlyReader {
             return "a face needs 3 corners or more, this one has " + std::to_string(face.size());
         }
         for (const double corner : face) {
-            if (!(corner >= 0 && corner < static_cast<double>(vertices_) && corner == std::floor(corner))) {
-                return "it uses vertex " + voxtact::number(corner) + ", the file has " + std::to_string(vertices_) +
-                       " vertices";
+            if (auto reason = checkCorner(corner)) {
+                return reason;
             }
             file_.corners.push_back(static_cast<std::uint32_t>(corner));
         }
         file_.faceSizes.push_back(static_cast<std::uint32_t>(face.size()));
         return std::nullopt;
+    }
+
+    /// Strips in one list, with -1 between them.
+    std::optional<std::string> addStrips(const std::vector<double>& corners) {
+        std::vector<std::uint32_t> strip;
+        for (std::size_t i = 0; i <= corners.size(); ++i) {
+            if (i < corners.size() && corners[i] != -1) {
+                if (auto reason = checkCorner(corners[i])) {
+                    return reason;
+                }
+                strip.push_back(static_cast<std::uint32_t>(corners[i]));
+                continue;
+            }
+            if (!strip.empty() && strip.size() < 3) {
+                return "a strip needs 3 corners or more, this one has " + std::to_string(strip.size());
+            }
+            addStrip(strip, file_);
+            strip.clear();
+        }
+        return std::nullopt;
+    }
+
+    [[nodiscard]] std::optional<std::string> checkCorner(double corner) const {
+        const bool isVertex = corner >= 0 && corner < static_cast<double>(vertices_) && corner == std::floor(corner);
+        return isVertex ? std::nullopt
+                        : std::optional<std::string>("it uses vertex " + voxtact::number(corner) + ", the file has " +
+                                                     std::to_string(vertices_) + " vertices");
     }
 
     const PlyHeader& header_;

@@ -41,6 +41,11 @@ class AsciiStl {
     /// The reason why the line cannot come here.
     std::optional<std::string> take(const std::vector<std::string_view>& tokens) {
         const std::string word = lowered(tokens[0]);
+        if (word == "solid") {
+            for (const std::string_view token : tokens) {
+                takeSpace(token, file_);
+            }
+        }
         if (word == "vertex") {
             return vertex(tokens);
         }
@@ -79,7 +84,7 @@ class AsciiStl {
         Vec3& corner = count_ < 3 ? corners_[count_] : ignored;
         ++count_;
         for (std::size_t i = 0; i < 3; ++i) {
-            if (auto reason = parseCoordinate(tokens[i + 1], corner[i])) {
+            if (auto reason = parseNumber(tokens[i + 1], corner[i])) {
                 return reason;
             }
         }
@@ -106,9 +111,10 @@ class AsciiStl {
 };
 
 Result<MeshFile> readAscii(const MeshSource& source) {
-    const Result<std::string_view> text = meshText(source.path, source.content);
-    VOXTACT_TRY(text);
+    // Some programs end the text with a zero.
     MeshFile file;
+    const Result<std::string_view> text = meshText(source.path, withoutPadding(source.content, file));
+    VOXTACT_TRY(text);
     AsciiStl stl(file);
     TextLines lines(*text);
     std::vector<std::string_view> tokens;
@@ -128,13 +134,18 @@ Result<MeshFile> readAscii(const MeshSource& source) {
     return file;
 }
 
-/// The length of the content is what its header states.
-Result<MeshFile> readBinary(const MeshSource& source) {
-    if (source.content.size() / kTriangleBytes > kMostVertices / 3) {
+/// The content has the length that its header states, or some bytes more.
+Result<MeshFile> readBinary(const MeshSource& source, std::size_t length) {
+    if (length / kTriangleBytes > kMostVertices / 3) {
         return cannotRead(source.path, "it has more triangles than 32 bits count");
     }
     MeshFile file;
-    for (std::size_t at = kHeaderBytes; at < source.content.size(); at += kTriangleBytes) {
+    takeSpace(source.content.substr(0, kHeaderBytes), file);
+    if (const std::size_t more = source.content.size() - length; more != 0) {
+        file.notes.push_back(std::to_string(more) + (more == 1 ? " byte" : " bytes") +
+                             " behind the triangles that the header states left out");
+    }
+    for (std::size_t at = kHeaderBytes; at < length; at += kTriangleBytes) {
         std::array<Vec3, 3> corners{};
         for (std::size_t i = 0; i < 9; ++i) {
             corners[i / 3][i % 3] =
@@ -153,13 +164,18 @@ Result<MeshFile> readStl(const MeshSource& source) {
     const std::uint64_t stated = content.size() < kHeaderBytes ? 0 : numberAt<std::uint32_t>(content, 80);
     const std::uint64_t length = kHeaderBytes + kTriangleBytes * stated;
     if (content.size() >= kHeaderBytes && content.size() == length) {
-        return readBinary(source);
+        return readBinary(source, content.size());
     }
     constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
     const std::string_view text = content.substr(content.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0, 4096);
-    const bool looksBinary = text.find('\0') != std::string_view::npos;
+    const bool looksBinary = text.substr(0, text.find_last_not_of(kPadding) + 1).find('\0') != std::string_view::npos;
     if (!looksBinary && lowered(trimmed(text).substr(0, 5)) == "solid") {
         return readAscii(source);
+    }
+    MeshFile ignored;
+    if (stated != 0 && content.size() > length &&
+        (content.size() - length < kTriangleBytes || takePadding(content.substr(length), ignored))) {
+        return readBinary(source, length);
     }
     if (content.size() < kHeaderBytes) {
         return cannotRead(source.path,

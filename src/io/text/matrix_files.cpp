@@ -6,6 +6,7 @@
 #include "io/text/text_lines.h"
 #include "voxtact/io.h"
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -16,6 +17,7 @@ namespace voxtact::io {
 namespace {
 
 constexpr std::size_t kElements = 16;
+constexpr std::size_t kRows = 12; // without the last row, 0 0 0 1
 
 std::string lineName(const std::filesystem::path& path, std::uint64_t line) {
     return path.string() + " line " + std::to_string(line);
@@ -26,22 +28,41 @@ std::size_t columnMajor(std::size_t rowMajor) {
     return 4 * (rowMajor % 4) + rowMajor / 4;
 }
 
-Result<Mat4> parsePose(const std::vector<std::string_view>& tokens, const std::filesystem::path& path,
-                       std::uint64_t line) {
-    Mat4 pose{};
+/// The numbers of a line: with blanks between them, or as a row of a CSV file.
+Result<std::vector<double>> numbersOf(std::string_view text, const std::filesystem::path& path, std::uint64_t line) {
+    std::vector<std::string_view> tokens;
+    const auto commas = std::count(text.begin(), text.end(), ',');
+    // Any other number of them is one of decimal commas.
+    if (commas == 3 || commas == kRows - 1 || commas == kElements - 1) {
+        for (std::size_t end = text.find(','); end != std::string_view::npos; end = text.find(',')) {
+            tokens.push_back(trimmed(text.substr(0, end)));
+            text.remove_prefix(end + 1);
+        }
+        tokens.push_back(trimmed(text));
+    } else {
+        splitTokens(text, tokens);
+    }
+    std::vector<double> numbers(tokens.size());
     for (std::size_t i = 0; i < tokens.size(); ++i) {
-        double value = 0;
-        if (const auto reason = parseNumber(tokens[i], value)) {
+        if (const auto reason = parseNumber(tokens[i], numbers[i])) {
             return badLine(path, line, *reason);
         }
-        if (i < kElements) {
-            pose[columnMajor(i)] = value;
-        }
     }
-    if (tokens.size() != kElements) {
+    return numbers;
+}
+
+Result<Mat4> makePose(std::vector<double> numbers, const std::filesystem::path& path, std::uint64_t line) {
+    if (numbers.size() == kRows) {
+        numbers.insert(numbers.end(), {0, 0, 0, 1});
+    }
+    if (numbers.size() != kElements) {
         return badLine(path, line,
-                       std::to_string(tokens.size()) + (tokens.size() == 1 ? " number" : " numbers") +
-                           ", a pose has 16 (row by row)");
+                       std::to_string(numbers.size()) + (numbers.size() == 1 ? " number" : " numbers") +
+                           ", a pose has 16, or 12 (row by row)");
+    }
+    Mat4 pose{};
+    for (std::size_t i = 0; i < kElements; ++i) {
+        pose[columnMajor(i)] = numbers[i];
     }
     if (Result<void> affine = checkAffine(pose, lineName(path, line)); !affine.ok()) {
         return Error{ErrorCode::Format, 0, affine.error().text};
@@ -53,27 +74,118 @@ Result<Mat4> parsePose(const std::vector<std::string_view>& tokens, const std::f
 
 struct PoseReader::State {
     LineReader lines;
-    std::vector<std::string_view> tokens{};
     bool any = false;
 
     /// The next pose; nothing at the end.
     Result<std::optional<Mat4>> next();
+
+  private:
+    /// The next line that is not empty; nothing at the end.
+    Result<std::optional<std::string_view>> line();
+    /// The rest of a matrix of four lines.
+    Result<Mat4> block(std::vector<double> numbers);
+    /// What follows the line "Transform: TYPE".
+    Result<Mat4> transform(std::string_view type);
+    /// The numbers of the line that begins so.
+    Result<std::vector<double>> field(std::string_view name, std::size_t count);
 };
 
-Result<std::optional<Mat4>> PoseReader::State::next() {
-    do {
-        const Result<std::optional<std::string_view>> line = lines.next();
-        VOXTACT_TRY(line);
-        if (!line->has_value()) {
-            return any ? Result(std::optional<Mat4>())
-                       : cannotRead(lines.name(), "it holds no pose; a pose is a line of 16 numbers, row by row");
+Result<std::optional<std::string_view>> PoseReader::State::line() {
+    for (;;) {
+        Result<std::optional<std::string_view>> line = lines.next();
+        if (!line.ok() || !line->has_value() || !(*line)->empty()) {
+            return line;
         }
-        splitTokens(**line, tokens);
-    } while (tokens.empty());
-    const Result<Mat4> pose = parsePose(tokens, lines.name(), lines.lineNumber());
+    }
+}
+
+Result<std::optional<Mat4>> PoseReader::State::next() {
+    constexpr std::string_view kTransform = "Transform:";
+    const Result<std::optional<std::string_view>> first = line();
+    VOXTACT_TRY(first);
+    if (!first->has_value()) {
+        return any ? Result(std::optional<Mat4>())
+                   : cannotRead(lines.name(), "it holds no pose; a pose is a line of 16 numbers, row by row");
+    }
+    const Result<Mat4> pose = [&]() -> Result<Mat4> {
+        if ((*first)->starts_with(kTransform)) {
+            return transform(trimmed((*first)->substr(kTransform.size())));
+        }
+        Result<std::vector<double>> numbers = numbersOf(**first, lines.name(), lines.lineNumber());
+        VOXTACT_TRY(numbers);
+        return numbers->size() == 4 ? block(std::move(*numbers))
+                                    : makePose(std::move(*numbers), lines.name(), lines.lineNumber());
+    }();
     VOXTACT_TRY(pose);
     any = true;
     return std::optional(*pose);
+}
+
+Result<Mat4> PoseReader::State::block(std::vector<double> numbers) {
+    while (numbers.size() < kElements) {
+        const Result<std::optional<std::string_view>> next = line();
+        VOXTACT_TRY(next);
+        const Result<std::vector<double>> row =
+            next->has_value() ? numbersOf(**next, lines.name(), lines.lineNumber()) : std::vector<double>();
+        VOXTACT_TRY(row);
+        if (row->size() != 4) {
+            return badLine(lines.name(), lines.lineNumber(),
+                           (next->has_value() ? std::to_string(row->size()) + " numbers" : std::string("the end")) +
+                               " in a pose of four lines of 4 numbers; a pose may also be a line of 16");
+        }
+        numbers.insert(numbers.end(), row->begin(), row->end());
+    }
+    return makePose(std::move(numbers), lines.name(), lines.lineNumber());
+}
+
+Result<std::vector<double>> PoseReader::State::field(std::string_view name, std::size_t count) {
+    const Result<std::optional<std::string_view>> next = line();
+    VOXTACT_TRY(next);
+    if (!next->has_value() || !(*next)->starts_with(name)) {
+        return badLine(lines.name(), lines.lineNumber(), "a line '" + std::string(name) + "' is missing");
+    }
+    Result<std::vector<double>> numbers = numbersOf((*next)->substr(name.size()), lines.name(), lines.lineNumber());
+    if (numbers.ok() && numbers->size() != count) {
+        return badLine(lines.name(), lines.lineNumber(),
+                       "'" + std::string(name) + "' has " + std::to_string(numbers->size()) + " numbers, not " +
+                           std::to_string(count));
+    }
+    return numbers;
+}
+
+/// ITK's point y = A (x - c) + t + c goes from the place of the object back to the object, as 3D Slicer writes it: the
+/// pose is its inverse.
+Result<Mat4> PoseReader::State::transform(std::string_view type) {
+    const bool isAffine = type.starts_with("AffineTransform_") || type.starts_with("MatrixOffsetTransformBase_");
+    if (!isAffine || !type.ends_with("_3_3")) {
+        return badLine(lines.name(), lines.lineNumber(),
+                       "the ITK transform " + inQuotes(type) + " is not supported; save it as an affine one");
+    }
+    const Result<std::vector<double>> parameters = field("Parameters:", 12);
+    VOXTACT_TRY(parameters);
+    const Result<std::vector<double>> centre = field("FixedParameters:", 3);
+    VOXTACT_TRY(centre);
+    Mat4 object_from_world = identity();
+    for (std::size_t row = 0; row < 3; ++row) {
+        double& offset = object_from_world[12 + row];
+        offset = (*parameters)[9 + row] + (*centre)[row];
+        for (std::size_t column = 0; column < 3; ++column) {
+            const double element = (*parameters)[3 * row + column];
+            object_from_world[4 * column + row] = element;
+            offset -= element * (*centre)[column];
+        }
+    }
+    const std::string name = lineName(lines.name(), lines.lineNumber());
+    Result<void> affine = checkAffine(object_from_world, name);
+    Result<Mat4> pose = affine.ok() ? inverse(object_from_world) : Result<Mat4>(affine.error());
+    if (affine.ok() && !pose.ok()) {
+        return badLine(lines.name(), lines.lineNumber(), pose.error().text);
+    }
+    affine = pose.ok() ? checkAffine(*pose, name) : affine;
+    for (std::size_t i = 0; affine.ok() && i < kElements; ++i) {
+        (*pose)[i] += 0.0; // no -0
+    }
+    return affine.ok() ? std::move(pose) : Error{ErrorCode::Format, 0, affine.error().text};
 }
 
 PoseReader::PoseReader(std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}

@@ -54,6 +54,9 @@ std::string cellText(const Cell& cell, std::string_view nothing, bool words) {
     if (const auto* both = std::get_if<NumberWord>(&cell)) {
         return words ? both->word : std::to_string(both->number);
     }
+    if (const auto* file = std::get_if<PathName>(&cell)) {
+        return words ? file->name : file->path;
+    }
     if (const auto* counts = std::get_if<std::vector<NamedCount>>(&cell); counts != nullptr && !counts->empty()) {
         return listText(*counts);
     }
@@ -86,7 +89,10 @@ Json toJson(const Cell& cell) {
         return *text;
     }
     if (const auto* both = std::get_if<NumberWord>(&cell)) {
-        return both->number;
+        return both->word;
+    }
+    if (const auto* file = std::get_if<PathName>(&cell)) {
+        return file->path;
     }
     if (const auto* counts = std::get_if<std::vector<NamedCount>>(&cell)) {
         Json list = Json::array();

@@ -17,10 +17,16 @@ namespace voxtact::io {
 
 enum class Format { Csv, Json, Text };
 
-/// A number in CSV and JSON that has a word in text.
+/// A number in CSV, a word in text and JSON.
 struct NumberWord {
     std::uint64_t number = 0;
     const char* word = "";
+};
+
+/// A path in CSV and JSON that is a name in text.
+struct PathName {
+    std::string path;
+    std::string name;
 };
 
 /// How many fragments are at a label.
@@ -33,7 +39,8 @@ struct NamedCount {
 /// JSON has no infinity: it is a word there, as in CSV. Nothing: an empty field in CSV, null in JSON, "-" in text.
 /// Named counts: "name:count;name:count" in CSV and text, where names with one of , ; : or quotes are in quotes, quotes
 /// in them doubled; an array of objects in JSON.
-using Cell = std::variant<std::monostate, std::uint64_t, double, std::string, NumberWord, std::vector<NamedCount>>;
+using Cell =
+    std::variant<std::monostate, std::uint64_t, double, std::string, NumberWord, PathName, std::vector<NamedCount>>;
 using NamedCells = std::vector<std::pair<std::string, Cell>>;
 
 /// What comes behind the rows: a line of CSV and text, "# name=value ..."; a member of JSON. Left out when empty.

@@ -5,6 +5,7 @@
 #include "core/base/try.h"
 #include "io/errors.h"
 
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -139,6 +140,19 @@ std::optional<std::string> parseNumber(std::string_view token, double& value) {
         return inQuotes(token) + " is not a finite number";
     }
     return std::nullopt;
+}
+
+Error formatByName(const std::filesystem::path& path, Error error, std::string_view use) {
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kFormats{
+        {{".xml", "XML"}, {".xmlcolormap", "ParaView's colour map"}, {".h5", "HDF5"}}};
+    const std::string name = lowered(path.filename().string());
+    for (const auto& [ending, format] : kFormats) {
+        if (name.ends_with(ending) && error.code == ErrorCode::Format) {
+            return cannotRead(path, "it is " + std::string(format) + " (" + std::string(ending) +
+                                        "), which is not supported; " + std::string(use));
+        }
+    }
+    return error;
 }
 
 std::string_view trimmed(std::string_view text) {

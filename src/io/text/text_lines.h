@@ -62,4 +62,8 @@ void splitTokens(std::string_view line, std::vector<std::string_view>& tokens);
 
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 
+/// The error of a text that cannot be read: where the ending of its name is one of 3D Slicer, ParaView or HDF5, the
+/// format by its name, with `use` as the way out; otherwise `error`.
+[[nodiscard]] Error formatByName(const std::filesystem::path& path, Error error, std::string_view use);
+
 } // namespace voxtact::io

@@ -4,8 +4,9 @@
 #include "core/base/text.h"
 #include "core/base/try.h"
 #include "io/errors.h"
+#include "io/text/json_file.h"
+#include "io/text/other_transfer_functions.h"
 #include "io/text/text_lines.h"
-#include "io/text/twice_said.h"
 #include "voxtact/io.h"
 
 #include <nlohmann/json.hpp>
@@ -81,24 +82,30 @@ std::optional<ControlPoint> pointOf(const Json& item) {
     return std::nullopt;
 }
 
-Result<Json> parseJson(const std::filesystem::path& path) {
-    const Result<std::string> text = readWholeFile(path);
-    VOXTACT_TRY(text);
-    try {
-        TwiceSaid<Json> twice;
-        Json root = Json::parse(
-            *text, [&twice](int, Json::parse_event_t event, const Json& parsed) { return twice(event, parsed); });
-        return twice.found() ? Result<Json>(cannotRead(path, "it says " + inQuotes(*twice.found()) + " twice"))
-                             : Result<Json>(std::move(root));
-    } catch (const Json::exception& problem) {
-        return cannotRead(path, jsonReason(problem.what()));
+/// Points of another program.
+Result<Points> checkedPoints(const std::filesystem::path& path, const Points& read) {
+    Points points;
+    for (const ControlPoint& point : read) {
+        if (const auto reason = addPoint(points, point.value, point.opacity)) {
+            return cannotRead(path, "opacity point " + std::to_string(points.size() + 1) + ": " + *reason);
+        }
     }
+    return points;
+}
+
+bool isVolumeProperty(const std::filesystem::path& path) {
+    return lowered(path.extension().string()) == ".vp";
 }
 
 Result<Points> readJson(const std::filesystem::path& path) {
-    const Result<Json> parsed = parseJson(path);
+    const Result<Json> parsed = readJsonFile(path);
     VOXTACT_TRY(parsed);
     const Json& root = *parsed;
+    if (isParaViewMap(root)) {
+        const Result<OtherTransferFunction> map = readParaViewMap(path, root);
+        VOXTACT_TRY(map);
+        return checkedPoints(path, map->opacity);
+    }
     const auto list = root.is_object() ? root.find("points") : root.end();
     if (list == root.end() || !list->is_array() || list->empty()) {
         return cannotRead(path, "it has no 'points'; expected {\"points\": [[value, opacity], ...]}");
@@ -132,17 +139,10 @@ Result<bool> isJson(const std::filesystem::path& path) {
 }
 
 /// The reason why the colour cannot follow those before it, if any.
-std::optional<std::string> addColour(std::vector<ColourPoint>& colours, const Json& item) {
-    constexpr std::size_t kNumbers = 4;
-    if (!item.is_array() || item.size() != kNumbers ||
-        !std::all_of(item.begin(), item.end(), [](const Json& number) { return number.is_number(); })) {
-        return "expected [value, red, green, blue]";
-    }
-    ColourPoint point{item[0].get<double>(), {}};
-    for (std::size_t channel = 0; channel < point.colour.size(); ++channel) {
-        point.colour[channel] = item[channel + 1].get<double>();
-        if (!(point.colour[channel] >= 0 && point.colour[channel] <= 1)) {
-            return "the channel " + number(point.colour[channel]) + " is outside 0..1";
+std::optional<std::string> addColour(std::vector<ColourPoint>& colours, const ColourPoint& point) {
+    for (const double channel : point.colour) {
+        if (!(channel >= 0 && channel <= 1)) {
+            return "the channel " + number(channel) + " is outside 0..1";
         }
     }
     if (!colours.empty() && point.value < colours.back().value) {
@@ -153,26 +153,65 @@ std::optional<std::string> addColour(std::vector<ColourPoint>& colours, const Js
     return std::nullopt;
 }
 
+std::optional<std::string> addColour(std::vector<ColourPoint>& colours, const Json& item) {
+    constexpr std::size_t kNumbers = 4;
+    if (!item.is_array() || item.size() != kNumbers ||
+        !std::all_of(item.begin(), item.end(), [](const Json& number) { return number.is_number(); })) {
+        return "expected [value, red, green, blue]";
+    }
+    return addColour(colours, ColourPoint{item[0].get<double>(),
+                                          {item[1].get<double>(), item[2].get<double>(), item[3].get<double>()}});
+}
+
+/// Colours of another program.
+Result<std::vector<ColourPoint>> checkedColours(const std::filesystem::path& path,
+                                                const std::vector<ColourPoint>& read) {
+    std::vector<ColourPoint> colours;
+    for (const ColourPoint& point : read) {
+        if (const auto reason = addColour(colours, point)) {
+            return cannotRead(path, "colour point " + std::to_string(colours.size() + 1) + ": " + *reason);
+        }
+    }
+    return colours;
+}
+
 } // namespace
 
 Result<std::vector<ControlPoint>> readTransferFunction(const std::filesystem::path& path) {
     return guard([&]() -> Result<Points> {
+        if (isVolumeProperty(path)) {
+            const Result<OtherTransferFunction> property = readVolumeProperty(path);
+            VOXTACT_TRY(property);
+            return checkedPoints(path, property->opacity);
+        }
         const Result<bool> json = isJson(path);
         VOXTACT_TRY(json);
-        return *json ? readJson(path) : readText(path);
+        Result<Points> points = *json ? readJson(path) : readText(path);
+        return points.ok() ? std::move(points)
+                           : formatByName(path, points.error(), "write a point as a line 'value opacity'");
     });
 }
 
 Result<std::vector<ColourPoint>> readColours(const std::filesystem::path& path) {
     return guard([&]() -> Result<std::vector<ColourPoint>> {
+        if (isVolumeProperty(path)) {
+            const Result<OtherTransferFunction> property = readVolumeProperty(path);
+            VOXTACT_TRY(property);
+            return checkedColours(path, property->colours);
+        }
         const Result<bool> json = isJson(path);
         VOXTACT_TRY(json);
         std::vector<ColourPoint> colours;
         if (!*json) {
             return colours;
         }
-        const Result<Json> root = parseJson(path);
+        const Result<Json> root = readJsonFile(path);
         VOXTACT_TRY(root);
+        if (isParaViewMap(*root)) {
+            const Result<OtherTransferFunction> map = readParaViewMap(path, *root);
+            VOXTACT_TRY(map);
+            return checkedColours(path, map->colours);
+        }
         const auto list = root->is_object() ? root->find("colours") : root->end();
         if (list == root->end()) {
             return colours;

@@ -150,16 +150,26 @@ Result<std::optional<DicomFile>> dicomFileIn(const std::filesystem::path& path, 
     file.syntax = *syntax;
     file.dataSetAt = stream.position();
     if (file.syntax->deflated) {
-        VOXTACT_TRY(stream.inflateFromHere());
+        // A bomb of gigabytes takes seconds; what stands beside the pixels is short.
+        constexpr std::uint64_t kBeside = std::uint64_t{1} << 26;
+        VOXTACT_TRY(stream.inflateFromHere(kBeside));
+    }
+    const DicomSyntax* const likely = syntaxWithoutHeader(stream.peek(8));
+    if (likely != nullptr && likely != file.syntax && (file.syntax == kTyped || file.syntax == kUntyped)) {
+        file.syntax = likely;
+        file.isOtherSyntax = true;
     }
     DicomWalker data(stream, *file.syntax);
-    if (!data.dataSet(file.set)) {
+    if (!data.dataSet(file.set) || (data.pixels() && !data.behindPixels(file.zeros))) {
         // What only looked like DICOM is left alone.
         constexpr std::size_t kSure = 3;
         if (beginning == Beginning::DataSet && data.elements() < kSure) {
             return std::optional<DicomFile>();
         }
         return cannotRead(path, data.problem());
+    }
+    if (!stream.isWhole()) {
+        return cannotRead(path, "its compressed data is cut off or damaged; get the file again");
     }
     file.pixels = data.pixels();
     return std::optional(std::move(file));

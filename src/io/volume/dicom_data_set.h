@@ -16,7 +16,7 @@ namespace voxtact::io {
 /// Group in the upper, element in the lower 16 bits: 0x00280010 is (0028,0010).
 using DicomTag = std::uint32_t;
 
-/// The elements that are looked at (PS3.6).
+/// The elements that are examined (PS3.6).
 namespace dicom {
 inline constexpr DicomTag kMediaStorage = 0x00020002;
 inline constexpr DicomTag kTransferSyntax = 0x00020010;
@@ -25,8 +25,10 @@ inline constexpr DicomTag kSopClass = 0x00080016;
 inline constexpr DicomTag kSopInstance = 0x00080018;
 inline constexpr DicomTag kModality = 0x00080060;
 inline constexpr DicomTag kSeriesDescription = 0x0008103E;
+inline constexpr DicomTag kSliceThickness = 0x00180050;
 inline constexpr DicomTag kEchoTime = 0x00180081;
 inline constexpr DicomTag kEchoNumbers = 0x00180086;
+inline constexpr DicomTag kSliceSpacing = 0x00180088;
 inline constexpr DicomTag kTriggerTime = 0x00181060;
 inline constexpr DicomTag kSeries = 0x0020000E;
 inline constexpr DicomTag kSeriesNumber = 0x00200011;
@@ -52,11 +54,34 @@ inline constexpr DicomTag kSlope = 0x00281053;
 inline constexpr DicomTag kModalityTable = 0x00283000;
 inline constexpr DicomTag kPixelMeasures = 0x00289110;
 inline constexpr DicomTag kValueTransformation = 0x00289145;
+inline constexpr DicomTag kRealWorldMapping = 0x00409096;
+inline constexpr DicomTag kSegmentationType = 0x00620001;
+inline constexpr DicomTag kSegments = 0x00620002;
+inline constexpr DicomTag kSegmentNumber = 0x00620004;
+inline constexpr DicomTag kSegmentLabel = 0x00620005;
+inline constexpr DicomTag kSegmentIdentification = 0x0062000A;
+inline constexpr DicomTag kReferencedSegment = 0x0062000B;
+inline constexpr DicomTag kMaxFractional = 0x0062000E;
+inline constexpr DicomTag kStructureSetRois = 0x30060020;
+inline constexpr DicomTag kRoiNumber = 0x30060022;
+inline constexpr DicomTag kRoiName = 0x30060026;
+inline constexpr DicomTag kRoiContours = 0x30060039;
+inline constexpr DicomTag kContours = 0x30060040;
+inline constexpr DicomTag kContourType = 0x30060042;
+inline constexpr DicomTag kContourPoints = 0x30060046;
+inline constexpr DicomTag kContourData = 0x30060050;
+inline constexpr DicomTag kReferencedRoi = 0x30060084;
+inline constexpr DicomTag kFrameOffsets = 0x3004000C;
+inline constexpr DicomTag kDoseScaling = 0x3004000E;
 inline constexpr DicomTag kShared = 0x52009229;
 inline constexpr DicomTag kPerFrame = 0x52009230;
 inline constexpr DicomTag kFloatPixels = 0x7FE00008;
 inline constexpr DicomTag kDoublePixels = 0x7FE00009;
 inline constexpr DicomTag kPixels = 0x7FE00010;
+
+/// SOP classes of files that make label maps (PS3.4).
+inline constexpr std::string_view kSegClass = "1.2.840.10008.5.1.4.1.1.66.4";
+inline constexpr std::string_view kRtStructClass = "1.2.840.10008.5.1.4.1.1.481.3";
 } // namespace dicom
 
 /// "(0028,0010)"
@@ -107,11 +132,13 @@ struct DicomFile {
     std::uint64_t dataSetAt = 0; ///< where the deflated part begins, if there is one
     DicomDataSet set;
     std::optional<DicomPixelData> pixels;
+    bool isOtherSyntax = false; ///< the elements are implicit where the file says explicit, or the reverse
+    std::uint64_t zeros = 0;    ///< at the end, which fill a block
 };
 
-/// Walks the whole data set up to the end of its pixels. None where the file is no DICOM file; a file that is one and
-/// whose elements do not fit into it or make no sense is refused. Reads no pixels, and takes little memory whatever the
-/// file claims.
+/// Walks the whole file; what is compressed is inflated to its end. None where the file is no DICOM file; a file that
+/// is one and whose elements do not fit into it or make no sense is refused. Reads no pixels, and takes little memory
+/// whatever the file claims.
 [[nodiscard]] Result<std::optional<DicomFile>> readDicomFile(const std::filesystem::path& path);
 
 } // namespace voxtact::io

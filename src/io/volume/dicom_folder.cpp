@@ -42,11 +42,12 @@ bool holdsNoImage(const DicomFile& file) {
 
 struct Survey {
     std::vector<DicomFile> images;
-    std::size_t others = 0; ///< DICOM files that hold no image
+    std::vector<std::string> leftOut; ///< names of files that are not DICOM; those too short for it first
+    std::size_t others = 0;           ///< DICOM files that hold no image
     bool hasDirectory = false;
 };
 
-/// Regular files, and links to them, by name. A link to nothing, and what cannot be looked at, is refused: it may be a
+/// Regular files, and links to them, by name. A link to nothing, and what cannot be examined, is refused: it may be a
 /// slice.
 Result<std::vector<fs::path>> filesOf(const fs::path& folder) {
     std::error_code problem;
@@ -75,6 +76,21 @@ Result<std::vector<fs::path>> filesOf(const fs::path& folder) {
     return paths;
 }
 
+/// A file that is not DICOM: its name may say that it was.
+Result<void> leaveOut(const fs::path& path, Survey& found) {
+    std::error_code unknown;
+    const std::uintmax_t size = fs::file_size(path, unknown);
+    const std::string what = size == 0 ? "it is empty" : "it is no DICOM file (" + std::to_string(size) + " bytes)";
+    // A hidden file is no slice: macOS writes '._NAME' beside each file on other disks.
+    if (lowerEnding(path) == ".dcm" && !path.filename().string().starts_with('.')) {
+        return cannotRead(path, what + ", and its name ends in .dcm; get it again or take it away");
+    }
+    constexpr std::uintmax_t kShort = 132; // where "DICM" ends
+    const std::string name = "'" + printable(path.filename().string()) + "'" + (size == 0 ? " (empty)" : "");
+    found.leftOut.insert(size < kShort ? found.leftOut.begin() : found.leftOut.end(), name);
+    return {};
+}
+
 Result<Survey> survey(const fs::path& folder) {
     constexpr std::string_view kDirectoryClass = "1.2.840.10008.1.3.10";
     const Result<std::vector<fs::path>> paths = filesOf(folder);
@@ -83,13 +99,15 @@ Result<Survey> survey(const fs::path& folder) {
     for (const fs::path& path : *paths) {
         Result<std::optional<DicomFile>> file = readDicomFile(path);
         VOXTACT_TRY(file); // of one that cannot be read, nobody knows whether it is a slice
-        if (*file && holdsNoImage(**file)) {
+        if (!*file) {
+            VOXTACT_TRY(leaveOut(path, found));
+        } else if (holdsNoImage(**file)) {
             ++found.others;
             found.hasDirectory = found.hasDirectory || (*file)->set.text(dicom::kMediaStorage) == kDirectoryClass;
-        } else if (*file && !(*file)->pixels) {
+        } else if (!(*file)->pixels) {
             return cannotRead(path, "it is a DICOM file without an image, or it is truncated; get it again or take it "
                                     "away");
-        } else if (*file) {
+        } else {
             found.images.push_back(std::move(**file));
         }
     }
@@ -197,6 +215,46 @@ Result<Stack> stackOf(const fs::path& folder, const std::vector<DicomFile>& file
     return stack;
 }
 
+/// "1 file", "4 files"
+std::string filesText(std::size_t count) {
+    return std::to_string(count) + (count == 1 ? " file" : " files");
+}
+
+bool mapsToRealWorld(const DicomDataSet& set) {
+    const auto in = [&](DicomTag groups) {
+        const std::vector<DicomDataSet>* const list = set.items(groups);
+        return list != nullptr && list->front().items(dicom::kRealWorldMapping) != nullptr;
+    };
+    return set.items(dicom::kRealWorldMapping) != nullptr || in(dicom::kShared) || in(dicom::kPerFrame);
+}
+
+/// What of the files is odd and harmless, or not used.
+void noteOddities(const Survey& found, const Stack& stack, std::vector<std::string>& notes) {
+    const std::vector<DicomFile>& files = found.images;
+    const auto count = [](const auto& list, auto&& is) {
+        return static_cast<std::size_t>(std::count_if(list.begin(), list.end(), is));
+    };
+    if (const std::size_t odd = count(files, [](const DicomFile& file) { return file.isOtherSyntax; }); odd != 0) {
+        notes.push_back(filesText(odd) + " whose elements are not stored by the transfer syntax that the file names "
+                                         "(explicit or implicit); read as they are stored");
+    }
+    if (const std::size_t odd = count(files, [](const DicomFile& file) { return file.zeros != 0; }); odd != 0) {
+        notes.push_back(filesText(odd) + " with blocks of zeros behind the last element");
+    }
+    if (const std::size_t odd = count(stack.images, [](const DicomImage& image) { return image.excess != 0; });
+        odd != 0) {
+        notes.push_back(filesText(odd) + " with more bytes of pixels than rows, columns and frames take; the first "
+                                         "ones are taken");
+    }
+    if (count(files, [](const DicomFile& file) { return mapsToRealWorld(file.set); }) != 0) {
+        notes.push_back("RealWorldValueMappingSequence " + toText(dicom::kRealWorldMapping) +
+                        " is not applied: values are those of RescaleSlope and RescaleIntercept");
+    }
+    if (count(files, [](const DicomFile& file) { return file.set.find(dicom::kDoseScaling) != nullptr; }) != 0) {
+        notes.emplace_back("voxels are doses: DoseGridScaling is applied");
+    }
+}
+
 std::vector<std::string> notesOf(const Survey& found, const Stack& stack, const StoredImage& image) {
     std::vector<std::string> notes{"DICOM series of " + std::to_string(stack.slices.size()) + " slices, " +
                                    millimetres(image.grid.spacing[2]) + " mm apart"};
@@ -206,6 +264,16 @@ std::vector<std::string> notesOf(const Survey& found, const Stack& stack, const 
     if (found.others > 0) {
         notes.push_back(std::to_string(found.others) + " DICOM files without images left out");
     }
+    if (!found.leftOut.empty()) {
+        constexpr std::size_t kMaxNamed = 4;
+        std::string names;
+        for (std::size_t i = 0; i < std::min(kMaxNamed, found.leftOut.size()); ++i) {
+            names += (i == 0 ? "" : ", ") + found.leftOut[i];
+        }
+        notes.push_back(filesText(found.leftOut.size()) + " left out that are not DICOM: " + names +
+                        (found.leftOut.size() > kMaxNamed ? ", ..." : ""));
+    }
+    noteOddities(found, stack, notes);
     return notes;
 }
 
@@ -219,7 +287,8 @@ Result<StoredImage> readDicomFolder(const fs::path& folder, const VolumeReadOpti
     const std::vector<DicomFile>& files = found->images;
     Result<Stack> stack = stackOf(folder, files);
     VOXTACT_TRY(stack);
-    const Result<Grid> grid = stackSlices(folder, files, stack->images.front(), stack->slices);
+    std::vector<std::string> lean;
+    const Result<Grid> grid = stackSlices(folder, files, stack->images.front(), stack->slices, lean);
     VOXTACT_TRY(grid);
     StoredImage image;
     image.grid = *grid;
@@ -229,6 +298,7 @@ Result<StoredImage> readDicomFolder(const fs::path& folder, const VolumeReadOpti
     VOXTACT_TRY(voxels);
     image.voxels = std::move(*voxels);
     notes = notesOf(*found, *stack, image);
+    notes.insert(notes.end(), lean.begin(), lean.end());
     return image;
 }
 

@@ -53,12 +53,16 @@ class FrameSource {
         if (!stream_.skip(file_.dataSetAt)) {
             return cut();
         }
-        return file_.syntax->deflated ? stream_.inflateFromHere() : Result<void>();
+        constexpr std::uint64_t kAll = ~std::uint64_t{0}; // it was inflated before, within bounds
+        return file_.syntax->deflated ? stream_.inflateFromHere(kAll) : Result<void>();
     }
 
     Result<void> native(const DicomFrameVisitor& visit) {
         if (!stream_.skip(file_.pixels->pieces.front().offset - stream_.position())) {
             return cut();
+        }
+        if (image_.bitsAllocated == 1) {
+            return bits(visit);
         }
         for (std::uint32_t frame = 0; frame < image_.frames; ++frame) {
             bytes_.resize(image_.frameBytes());
@@ -66,6 +70,28 @@ class FrameSource {
                 return cut();
             }
             unpack();
+            visit(frame, cells_);
+        }
+        return {};
+    }
+
+    /// One bit a pixel, the lowest of a byte first; frames begin anywhere in a byte.
+    Result<void> bits(const DicomFrameVisitor& visit) {
+        std::uint64_t used = 8; // of the bits of the byte that a frame shares with the one before
+        char shared = 0;
+        for (std::uint32_t frame = 0; frame < image_.frames; ++frame) {
+            const std::uint64_t fresh = image_.pixels() > 8 - used ? image_.pixels() - (8 - used) : 0;
+            bytes_.assign(1, shared);
+            bytes_.resize(1 + (fresh + 7) / 8);
+            if (!stream_.read(bytes_.data() + 1, bytes_.size() - 1)) {
+                return cut();
+            }
+            for (std::size_t i = 0; i < cells_.size(); ++i) {
+                const std::uint64_t bit = used + i;
+                cells_[i] = static_cast<unsigned char>(bytes_[bit / 8]) >> (bit % 8) & 1U;
+            }
+            shared = bytes_.back();
+            used = used + cells_.size() - 8 * (bytes_.size() - 1);
             visit(frame, cells_);
         }
         return {};

@@ -16,38 +16,6 @@ namespace voxtact::io {
 
 namespace {
 
-/// Numbers with backslashes between them; none unless there are as many as wanted, and finite.
-std::optional<std::vector<double>> numbersOf(std::string_view text, std::size_t wanted) {
-    std::vector<double> numbers;
-    while (numbers.size() < wanted) {
-        const std::size_t end = std::min(text.find('\\'), text.size());
-        std::string_view one = text.substr(0, end);
-        while (!one.empty() && one.front() == ' ') {
-            one.remove_prefix(1);
-        }
-        if (one.starts_with('+')) {
-            one.remove_prefix(1);
-        }
-        while (!one.empty() && one.back() == ' ') {
-            one.remove_suffix(1);
-        }
-        double value = 0;
-        const auto parsed = std::from_chars(one.data(), one.data() + one.size(), value);
-        if (parsed.ec != std::errc() || parsed.ptr != one.data() + one.size() || !std::isfinite(value)) {
-            return std::nullopt;
-        }
-        numbers.push_back(value);
-        if (end == text.size()) {
-            break;
-        }
-        text.remove_prefix(end + 1);
-        if (numbers.size() == wanted) {
-            return std::nullopt; // more of them
-        }
-    }
-    return numbers.size() == wanted ? std::optional(numbers) : std::nullopt;
-}
-
 std::string named(const char* name, DicomTag tag) {
     return std::string(name) + " " + toText(tag);
 }
@@ -101,11 +69,14 @@ Result<void> counts(const DicomFile& file, DicomImage& image) {
     return {};
 }
 
+Error noPixels(const DicomFile& file, const DicomImage& image) {
+    return cannotRead(file.path, "it has no pixels: " + std::to_string(image.columns) + " columns, " +
+                                     std::to_string(image.rows) + " rows, " + std::to_string(image.frames) + " frames");
+}
+
 Result<void> checkBits(const DicomFile& file, const DicomImage& image) {
     if (image.rows == 0 || image.columns == 0 || image.frames == 0) {
-        return cannotRead(file.path, "it has no pixels: " + std::to_string(image.columns) + " columns, " +
-                                         std::to_string(image.rows) + " rows, " + std::to_string(image.frames) +
-                                         " frames");
+        return noPixels(file, image);
     }
     if (image.bitsAllocated != 8 && image.bitsAllocated != 16 && image.bitsAllocated != 32) {
         return cannotRead(file.path, "its pixels take " + std::to_string(image.bitsAllocated) +
@@ -133,6 +104,12 @@ Result<void> checkMeaning(const DicomFile& file) {
         return cannotRead(file.path, "its pixels are floats " + toText(file.pixels->tag) +
                                          ", which are not supported; convert the series to NIfTI or NRRD");
     }
+    if (const std::string_view type = file.set.text(dicom::kImageType); type.find("MOSAIC") != std::string_view::npos) {
+        return cannotRead(file.path, "it is a Siemens mosaic (ImageType " + toText(dicom::kImageType) + " '" +
+                                         printable(type) +
+                                         "'): each file holds all slices side by side; convert the series, for "
+                                         "example by dcm2niix");
+    }
     const std::string_view samples = file.set.text(dicom::kSamples);
     const std::string_view photometric = file.set.text(dicom::kPhotometric);
     if ((!samples.empty() && samples != "1") || !photometric.starts_with("MONOCHROME")) {
@@ -148,12 +125,14 @@ Result<void> checkMeaning(const DicomFile& file) {
     return {};
 }
 
-Result<void> checkPixelLength(const DicomFile& file, const DicomImage& image) {
+/// Less than a frame too much is padding (PS3.5, 8).
+Result<void> checkPixelLength(const DicomFile& file, DicomImage& image) {
     const std::uint64_t length = file.pixels->pieces.empty() ? 0 : file.pixels->pieces.front().length;
     // Rows and columns have 16 bits, frames 32: a product of 64 bits needs care only with them.
     const std::uint64_t frame = image.frameBytes();
     const std::uint64_t wanted = frame > length ? frame : frame * std::min<std::uint64_t>(image.frames, length + 1);
-    if (!file.pixels->encapsulated && length != wanted && length != wanted + wanted % 2) {
+    image.excess = file.pixels->encapsulated || length <= wanted + wanted % 2 ? 0 : length - wanted;
+    if (!file.pixels->encapsulated && (length < wanted || image.excess >= frame)) {
         return cannotRead(file.path, "its pixels take " + std::to_string(length) + " bytes, which is not " +
                                          std::to_string(image.columns) + " columns x " + std::to_string(image.rows) +
                                          " rows x " + std::to_string(image.frames) + " frames x " +
@@ -208,7 +187,7 @@ class FrameReader {
         if (set == nullptr) {
             return refused("it has no " + named(name, tag) + ", " + consequence);
         }
-        const auto values = numbersOf(*set->find(tag), wanted);
+        const auto values = dicomNumbers(*set->find(tag), wanted);
         if (!values) {
             return refused("its " + named(name, tag) + " is '" + printable(*set->find(tag)) + "', not " +
                            std::to_string(wanted) + " numbers; get the file again");
@@ -272,6 +251,23 @@ class FrameReader {
     }
 
     Result<void> rescale() {
+        VOXTACT_TRY(rescaleValues());
+        if (file_.set.find(dicom::kDoseScaling) == nullptr) {
+            return {};
+        }
+        const auto dose = numbers(dicom::kValueTransformation, dicom::kDoseScaling, "DoseGridScaling", 1, "");
+        VOXTACT_TRY(dose);
+        if (slice_.isRescaled || !(dose->front() > 0)) {
+            return refused(
+                "its " + named("DoseGridScaling", dicom::kDoseScaling) + " is " + number(dose->front()) +
+                (slice_.isRescaled ? ", and it has a RescaleSlope, too; get the file again" : "; it must be above 0"));
+        }
+        slice_.isRescaled = true;
+        slice_.slope = dose->front();
+        return {};
+    }
+
+    Result<void> rescaleValues() {
         const bool slope = groups_.holding(dicom::kValueTransformation, dicom::kSlope) != nullptr;
         const bool intercept = groups_.holding(dicom::kValueTransformation, dicom::kIntercept) != nullptr;
         slice_.isRescaled = slope || intercept;
@@ -297,7 +293,84 @@ class FrameReader {
     DicomSlice& slice_;
 };
 
+/// Frames of a dose (PS3.3, C.8.8.3.2): offsets from the first along the normal, or places along the patient's z.
+Result<void> shiftFrames(const DicomFile& file, std::vector<DicomSlice>& slices) {
+    const std::string_view text = file.set.text(dicom::kFrameOffsets);
+    const std::optional<std::vector<double>> offsets = dicomNumbers(text, slices.size());
+    if (!offsets) {
+        return malformed(file, "GridFrameOffsetVector", dicom::kFrameOffsets, text,
+                         std::to_string(slices.size()) + " numbers, one a frame");
+    }
+    constexpr double kRounding = 0.01;
+    const Vec3 normal = cross(slices.front().across, slices.front().down);
+    const double first = offsets->front();
+    const bool isRelative = first == 0;
+    if (!isRelative && (std::abs(normal[2]) < 1 - kRounding || std::abs(first - slices[0].position[2]) > kRounding)) {
+        return cannotRead(file.path, "its " + named("GridFrameOffsetVector", dicom::kFrameOffsets) + " begins with " +
+                                         number(first) +
+                                         ", which is neither 0 nor the place of the first frame; get the file again");
+    }
+    for (std::size_t frame = 0; frame < slices.size(); ++frame) {
+        const double along = isRelative ? (*offsets)[frame] : ((*offsets)[frame] - first) * normal[2];
+        for (std::size_t i = 0; i < 3; ++i) {
+            slices[frame].position[i] += along * normal[i];
+        }
+    }
+    return {};
+}
+
 } // namespace
+
+std::optional<std::vector<double>> dicomNumbers(std::string_view text, std::size_t wanted) {
+    std::vector<double> numbers;
+    for (bool more = true; more;) {
+        const std::size_t end = std::min(text.find('\\'), text.size());
+        std::string_view one = text.substr(0, end);
+        while (!one.empty() && one.front() == ' ') {
+            one.remove_prefix(1);
+        }
+        if (one.starts_with('+')) {
+            one.remove_prefix(1);
+        }
+        while (!one.empty() && one.back() == ' ') {
+            one.remove_suffix(1);
+        }
+        double value = 0;
+        const auto parsed = std::from_chars(one.data(), one.data() + one.size(), value);
+        if (parsed.ec != std::errc() || parsed.ptr != one.data() + one.size() || !std::isfinite(value) ||
+            (wanted != 0 && numbers.size() == wanted)) {
+            return std::nullopt;
+        }
+        numbers.push_back(value);
+        more = end < text.size();
+        text.remove_prefix(more ? end + 1 : end);
+    }
+    return wanted == 0 || numbers.size() == wanted ? std::optional(numbers) : std::nullopt;
+}
+
+Result<DicomImage> dicomMask(const DicomFile& file) {
+    DicomImage image;
+    VOXTACT_TRY(counts(file, image));
+    if (image.rows == 0 || image.columns == 0 || image.frames == 0) {
+        return noPixels(file, image);
+    }
+    if (image.bitsAllocated != 1 || image.bitsStored != 1 || image.highBit != 0 || file.pixels->encapsulated) {
+        return cannotRead(file.path, "its pixels are no plain mask of one bit each (BitsAllocated " +
+                                         std::to_string(image.bitsAllocated) +
+                                         "); convert it to explicit VR little "
+                                         "endian");
+    }
+    const std::uint64_t length = file.pixels->pieces.front().length;
+    const std::uint64_t frame = image.pixels();
+    // Frames follow each other without padding.
+    if (frame > 8 * length || image.frames > 8 * length / frame || length > (frame * image.frames + 7) / 8 + 1) {
+        return cannotRead(file.path, "its pixels take " + std::to_string(length) + " bytes, which is not " +
+                                         std::to_string(image.columns) + " columns x " + std::to_string(image.rows) +
+                                         " rows x " + std::to_string(image.frames) +
+                                         " frames of bits; get the file again");
+    }
+    return image;
+}
 
 Result<DicomImage> dicomImage(const DicomFile& file) {
     DicomImage image;
@@ -306,7 +379,7 @@ Result<DicomImage> dicomImage(const DicomFile& file) {
     VOXTACT_TRY(checkBits(file, image));
     VOXTACT_TRY(checkPixelLength(file, image));
     const std::vector<DicomDataSet>* perFrame = file.set.items(dicom::kPerFrame);
-    if (image.frames > 1 && perFrame == nullptr) {
+    if (image.frames > 1 && perFrame == nullptr && file.set.find(dicom::kFrameOffsets) == nullptr) {
         return cannotRead(file.path, "it holds " + std::to_string(image.frames) +
                                          " frames (multi-frame) and does not say where each lies "
                                          "(PerFrameFunctionalGroupsSequence); give a series with one slice a file, or "
@@ -334,6 +407,9 @@ Result<std::vector<DicomSlice>> dicomSlices(const DicomFile& file, const DicomIm
         const Groups groups{{perFrame == nullptr ? nullptr : &(*perFrame)[frame],
                              shared == nullptr ? nullptr : &shared->front(), &file.set}};
         VOXTACT_TRY(FrameReader(file, groups, slice).read());
+    }
+    if (image.frames > 1 && perFrame == nullptr) {
+        VOXTACT_TRY(shiftFrames(file, slices));
     }
     return slices;
 }

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,10 +18,11 @@ struct DicomImage {
     std::uint32_t rows = 0;
     std::uint32_t frames = 1;
     bool isMultiFrame = false;  ///< it has functional groups, or says more than one frame
-    unsigned bitsAllocated = 0; ///< 8, 16 or 32
+    unsigned bitsAllocated = 0; ///< 8, 16 or 32; 1 of a mask
     unsigned bitsStored = 0;    ///< 1 to bitsAllocated
     unsigned highBit = 0;       ///< bitsStored - 1 to bitsAllocated - 1
     bool isSigned = false;
+    std::uint64_t excess = 0; ///< bytes behind the pixels, in their element
 
     [[nodiscard]] std::uint64_t pixels() const noexcept { return std::uint64_t{columns} * rows; }
     [[nodiscard]] std::uint64_t frameBytes() const noexcept { return pixels() * (bitsAllocated / 8); }
@@ -44,6 +46,12 @@ struct DicomSlice {
 /// What a file with pixels says about them; refuses what cannot be read, naming the element, and sizes that the pixels
 /// in the file do not have.
 [[nodiscard]] Result<DicomImage> dicomImage(const DicomFile& file);
+
+/// The same of a mask of one bit a pixel, as segmentations have them.
+[[nodiscard]] Result<DicomImage> dicomMask(const DicomFile& file);
+
+/// Numbers with backslashes between them; none unless there are as many as wanted (0: any number), and finite.
+[[nodiscard]] std::optional<std::vector<double>> dicomNumbers(std::string_view text, std::size_t wanted);
 
 /// A slice for each frame. Nothing that is missing is assumed: refused by name.
 [[nodiscard]] Result<std::vector<DicomSlice>> dicomSlices(const DicomFile& file, const DicomImage& image,

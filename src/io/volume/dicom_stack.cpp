@@ -173,7 +173,8 @@ Result<void> checkPlaces(const std::filesystem::path& folder, const std::vector<
 }
 
 /// A tilted gantry shifts each slice within its plane, which spacing and direction cannot say.
-Result<void> checkUpright(const std::filesystem::path& folder, const std::vector<DicomSlice>& slices, double gap) {
+Result<void> checkUpright(const std::filesystem::path& folder, const std::vector<DicomSlice>& slices, double gap,
+                          std::vector<std::string>& notes) {
     const DicomSlice& first = slices.front();
     const double allowed = std::max(tolerance(gap), 0.1 * std::min(first.spacing[0], first.spacing[1]));
     const auto shiftOf = [&](const DicomSlice& slice) {
@@ -182,9 +183,11 @@ Result<void> checkUpright(const std::filesystem::path& folder, const std::vector
     };
     const std::array<double, 2> whole = shiftOf(slices.back());
     const double rise = slices.back().height - first.height;
+    double most = 0;
     for (std::size_t i = 1; i < slices.size(); ++i) {
         const double share = (slices[i].height - first.height) / rise;
         const std::array<double, 2> shift = shiftOf(slices[i]);
+        most = std::max(most, std::hypot(shift[0], shift[1]));
         const double beside = std::hypot(shift[0] - share * whole[0], shift[1] - share * whole[1]);
         if (beside > allowed) {
             return cannotRead(folder, slices[i].name + " (at " + millimetres(slices[i].height) + " mm) lies " +
@@ -193,10 +196,15 @@ Result<void> checkUpright(const std::filesystem::path& folder, const std::vector
         }
     }
     const double shift = std::hypot(whole[0], whole[1]);
+    const double degrees = std::atan2(shift, rise) * 180 / std::numbers::pi;
     if (shift > allowed) {
-        const double degrees = std::atan2(shift, rise) * 180 / std::numbers::pi;
         return cannotRead(folder, "its slices are sheared by " + number(std::round(degrees * 10) / 10) +
                                       " degrees (tilted gantry); resample the series to an upright one");
+    }
+    constexpr double kRounding = 0.01; // mm, of positions as they are written
+    if (most > kRounding) {
+        notes.push_back("the slices lie up to " + millimetres(most) + " mm beside the first one's normal (" +
+                        number(std::round(degrees * 100) / 100) + " degrees in all); they are stacked upright");
     }
     return {};
 }
@@ -225,7 +233,7 @@ Result<void> checkAlike(const std::vector<DicomFile>& files, const std::vector<D
 }
 
 Result<Grid> stackSlices(const std::filesystem::path& folder, const std::vector<DicomFile>& files,
-                         const DicomImage& image, std::vector<DicomSlice>& slices) {
+                         const DicomImage& image, std::vector<DicomSlice>& slices, std::vector<std::string>& notes) {
     const Vec3 normal = cross(slices.front().across, slices.front().down);
     for (DicomSlice& slice : slices) {
         slice.height = dot(slice.position, normal);
@@ -235,7 +243,7 @@ Result<Grid> stackSlices(const std::filesystem::path& folder, const std::vector<
     VOXTACT_TRY(checkPlaces(folder, files, slices));
     const DicomSlice& first = slices.front();
     const double gap = (slices.back().height - first.height) / static_cast<double>(slices.size() - 1);
-    VOXTACT_TRY(checkUpright(folder, slices, gap));
+    VOXTACT_TRY(checkUpright(folder, slices, gap, notes));
     Grid grid;
     grid.size = {image.columns, image.rows, static_cast<std::uint32_t>(slices.size())};
     grid.spacing = {first.spacing[0], first.spacing[1], gap};

@@ -17,8 +17,9 @@ namespace voxtact::io {
                                       const std::vector<DicomSlice>& slices);
 
 /// Sorts the slices (at least two) along their normal and gives the grid that they make. Refuses two at one place, gaps
-/// that are uneven, and stacks that lean (a tilted gantry), saying where.
+/// that are uneven, and stacks that lean (a tilted gantry), saying where. Slices that lie a little sideways are noted.
 [[nodiscard]] Result<Grid> stackSlices(const std::filesystem::path& folder, const std::vector<DicomFile>& files,
-                                       const DicomImage& image, std::vector<DicomSlice>& slices);
+                                       const DicomImage& image, std::vector<DicomSlice>& slices,
+                                       std::vector<std::string>& notes);
 
 } // namespace voxtact::io

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <limits>
 #include <new>
 
 #include <zlib.h>
@@ -15,7 +16,7 @@ namespace voxtact::io {
 
 namespace {
 
-constexpr std::size_t kChunk = std::size_t{1} << 16;
+constexpr std::size_t kInflatedChunk = std::size_t{1} << 16;
 /// What one deflated byte becomes at most.
 constexpr std::uint64_t kMostInflation = 1032;
 
@@ -65,7 +66,7 @@ bool DicomStream::fill() {
         return fillInflated();
     }
     const std::size_t before = window_.size();
-    const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(kChunk, fileLeft_));
+    const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(kInflatedChunk, fileLeft_));
     window_.resize(before + wanted);
     const std::size_t got = take(window_.data() + before, wanted);
     window_.resize(before + got);
@@ -75,13 +76,16 @@ bool DicomStream::fill() {
 
 bool DicomStream::fillInflated() {
     const std::size_t before = window_.size();
-    window_.resize(before + kChunk);
+    if (position_ + before >= mostInflated_) {
+        return false;
+    }
+    window_.resize(before + kInflatedChunk);
     inflate_->next_out = reinterpret_cast<Bytef*>(window_.data() + before);
-    inflate_->avail_out = static_cast<uInt>(kChunk);
+    inflate_->avail_out = static_cast<uInt>(kInflatedChunk);
     int state = Z_OK;
-    while (inflate_->avail_out == kChunk && state == Z_OK) {
+    while (inflate_->avail_out == kInflatedChunk && state == Z_OK) {
         if (inflate_->avail_in == 0) {
-            compressed_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(kChunk, fileLeft_)));
+            compressed_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(kInflatedChunk, fileLeft_)));
             const std::size_t got = take(compressed_.data(), compressed_.size());
             inflate_->next_in = reinterpret_cast<Bytef*>(compressed_.data());
             inflate_->avail_in = static_cast<uInt>(got);
@@ -91,12 +95,21 @@ bool DicomStream::fillInflated() {
             throw std::bad_alloc();
         }
     }
-    window_.resize(before + kChunk - inflate_->avail_out);
+    window_.resize(before + kInflatedChunk - inflate_->avail_out);
     ended_ = state != Z_OK;
+    isInflated_ = state == Z_STREAM_END;
     return window_.size() > before;
 }
 
-Result<void> DicomStream::inflateFromHere() {
+void DicomStream::allow(std::uint64_t bytes) noexcept {
+    mostInflated_ += std::min(bytes, std::numeric_limits<std::uint64_t>::max() - mostInflated_);
+}
+
+bool DicomStream::isWhole() const noexcept {
+    return !inflate_ || (isInflated_ && fileLeft_ + inflate_->avail_in <= 1);
+}
+
+Result<void> DicomStream::inflateFromHere(std::uint64_t most) {
     auto stream = std::make_unique<z_stream>();
     *stream = {};
     if (inflateInit2(stream.get(), -MAX_WBITS) != Z_OK) {
@@ -109,6 +122,8 @@ Result<void> DicomStream::inflateFromHere() {
     inflate_->next_in = reinterpret_cast<Bytef*>(compressed_.data());
     inflate_->avail_in = static_cast<uInt>(compressed_.size());
     ended_ = false;
+    mostInflated_ = position_;
+    allow(most);
     return {};
 }
 
@@ -117,7 +132,8 @@ std::uint64_t DicomStream::mostLeft() const noexcept {
     if (!inflate_) {
         return here + fileLeft_;
     }
-    return here + (ended_ ? 0 : kMostInflation * (fileLeft_ + inflate_->avail_in) + kChunk);
+    const std::uint64_t packed = ended_ ? 0 : kMostInflation * (fileLeft_ + inflate_->avail_in) + kInflatedChunk;
+    return std::min(here + packed, mostInflated_ - std::min(mostInflated_, position_));
 }
 
 std::string_view DicomStream::peek(std::size_t count) {

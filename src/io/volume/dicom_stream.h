@@ -39,8 +39,13 @@ class DicomStream {
     /// How many bytes may follow at most: exact for a plain file, a bound for a deflated one.
     [[nodiscard]] std::uint64_t mostLeft() const noexcept;
 
-    /// What follows is a raw deflate stream.
-    [[nodiscard]] Result<void> inflateFromHere();
+    /// What follows is a raw deflate stream, of which `most` bytes are inflated at most.
+    [[nodiscard]] Result<void> inflateFromHere(std::uint64_t most);
+    /// Inflates so many bytes more.
+    void allow(std::uint64_t bytes) noexcept;
+    /// False where the deflate stream did not come to its end, or more than a byte of padding follows it. Once there
+    /// are no bytes left.
+    [[nodiscard]] bool isWhole() const noexcept;
 
   private:
     DicomStream(std::ifstream file, std::uint64_t size);
@@ -62,7 +67,9 @@ class DicomStream {
     std::size_t windowAt_ = 0;
     std::string compressed_;
     std::unique_ptr<z_stream_s, InflateEnd> inflate_;
+    std::uint64_t mostInflated_ = 0; ///< the position that inflation does not go beyond
     bool ended_ = false;
+    bool isInflated_ = false; ///< the deflate stream came to its end
     bool failed_ = false;
 };
 

@@ -98,9 +98,9 @@ std::string rescaleNote(const std::vector<DicomSlice>& slices, StoredType type) 
         return "RescaleSlope differs from slice to slice (" + number(least->slope) + " to " + number(most->slope) +
                "); voxels are in real units" + (type == StoredType::Float32 ? ", as floats" : "");
     }
-    return type == StoredType::Float32
-               ? "voxels are floats: RescaleSlope or RescaleIntercept is no whole number, or a large one"
-               : "";
+    return type == StoredType::Float32 ? "voxels are floats: RescaleSlope, RescaleIntercept or DoseGridScaling is no "
+                                         "whole number, or a large one"
+                                       : "";
 }
 
 Result<std::vector<std::byte>> dicomVoxels(const std::vector<DicomFile>& files, const std::vector<DicomImage>& images,

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <limits>
 
 namespace voxtact::io {
@@ -17,6 +18,7 @@ constexpr std::uint32_t kUndefined = 0xFFFFFFFF;
 constexpr DicomTag kItem = 0xFFFEE000;
 constexpr DicomTag kItemEnd = 0xFFFEE00D;
 constexpr DicomTag kSequenceEnd = 0xFFFEE0DD;
+constexpr const char* kNoElement = "it is damaged: bytes that are no element follow its pixels; get the file again";
 constexpr std::uint64_t kNoEnd = std::numeric_limits<std::uint64_t>::max();
 
 /// The types with two spare bytes and a length of four.
@@ -37,15 +39,30 @@ enum class Kind { None, Text, Short, Sequence };
 Kind kindOf(DicomTag tag) {
     using namespace dicom;
     constexpr std::array kTexts{
-        kMediaStorage, kTransferSyntax, kImageType,   kSopClass,          kSopInstance, kModality,
-        kEchoTime,     kEchoNumbers,    kTriggerTime, kSeriesDescription, kSeries,      kSeriesNumber,
-        kPosition,     kOrientation,    kFrames,      kFrameOfReference,  kIntercept,   kAcquisitionNumber,
-        kPhotometric,  kPixelSpacing,   kSlope,       kTemporalPosition,
+        kMediaStorage, kTransferSyntax,    kImageType,        kSopClass,
+        kSopInstance,  kModality,          kEchoTime,         kEchoNumbers,
+        kTriggerTime,  kSeriesDescription, kSeries,           kSeriesNumber,
+        kPosition,     kOrientation,       kFrames,           kFrameOfReference,
+        kIntercept,    kAcquisitionNumber, kPhotometric,      kPixelSpacing,
+        kSlope,        kTemporalPosition,  kFrameOffsets,     kDoseScaling,
+        kSliceSpacing, kSliceThickness,    kSegmentationType, kSegmentLabel,
+        kRoiNumber,    kRoiName,           kContourType,      kContourPoints,
+        kContourData,  kReferencedRoi,
     };
-    constexpr std::array kShorts{
-        kSamples, kRows, kColumns, kBitsAllocated, kBitsStored, kHighBit, kPixelRepresentation};
-    constexpr std::array kSequences{kPlanePosition, kPlaneOrientation, kPixelMeasures, kValueTransformation,
-                                    kShared,        kPerFrame,         kModalityTable};
+    constexpr std::array kShorts{kSamples,
+                                 kRows,
+                                 kColumns,
+                                 kBitsAllocated,
+                                 kBitsStored,
+                                 kHighBit,
+                                 kPixelRepresentation,
+                                 kSegmentNumber,
+                                 kReferencedSegment,
+                                 kMaxFractional};
+    constexpr std::array kSequences{
+        kPlanePosition, kPlaneOrientation, kPixelMeasures, kValueTransformation,   kShared,           kPerFrame,
+        kModalityTable, kRealWorldMapping, kSegments,      kSegmentIdentification, kStructureSetRois, kRoiContours,
+        kContours};
     const auto in = [tag](const auto& tags) { return std::find(tags.begin(), tags.end(), tag) != tags.end(); };
     if (in(kTexts)) {
         return Kind::Text;
@@ -54,6 +71,19 @@ Kind kindOf(DicomTag tag) {
         return Kind::Short;
     }
     return in(kSequences) ? Kind::Sequence : Kind::None;
+}
+
+/// Bytes that the pixels take by their tags, at most; 0 where these do not say it.
+std::uint64_t pixelBytes(const DicomDataSet& set) {
+    std::uint64_t bits = 1;
+    for (const DicomTag tag : {dicom::kRows, dicom::kColumns, dicom::kBitsAllocated, dicom::kSamples, dicom::kFrames}) {
+        const std::string_view text = set.text(tag);
+        std::uint64_t count = tag == dicom::kSamples || tag == dicom::kFrames ? 1 : 0;
+        std::from_chars(text.data(), text.data() + text.size(), count);
+        constexpr std::uint64_t kFar = std::uint64_t{1} << 50;
+        bits = count != 0 && bits > kFar / count ? kFar : bits * count;
+    }
+    return bits / 8 + 1;
 }
 
 std::string withoutPadding(std::string_view text) {
@@ -148,7 +178,7 @@ bool DicomWalker::dataSet(DicomDataSet& into) {
             return false;
         }
         if (here.tag == dicom::kPixels || here.tag == dicom::kFloatPixels || here.tag == dicom::kDoublePixels) {
-            return pixelData(here);
+            return pixelData(here, into);
         }
         if (!element(here, into, kNoEnd)) {
             return false;
@@ -156,6 +186,54 @@ bool DicomWalker::dataSet(DicomDataSet& into) {
         ++elements_;
     }
     return true;
+}
+
+bool DicomWalker::behindPixels(std::uint64_t& zeros) {
+    zeros = 0;
+    if (!pixels_->encapsulated && !stream_.skip(pixels_->pieces.front().length)) {
+        problem_ = "it is truncated: it ends before its pixels do; get the file again";
+        return false;
+    }
+    DicomDataSet unused;
+    constexpr std::size_t kLeast = 8;
+    while (!stream_.peek(1).empty()) {
+        const std::string_view next = stream_.peek(kLeast);
+        if (std::all_of(next.begin(), next.end(), [](char c) { return c == 0; })) {
+            return zerosToTheEnd(zeros);
+        }
+        if (next.size() < kLeast) {
+            problem_ = kNoElement;
+            return false;
+        }
+        Element here;
+        if (!header(here)) {
+            return false;
+        }
+        if (here.tag <= pixels_->tag) {
+            return fail(here, "stands behind the pixels");
+        }
+        if (!element(here, unused, kNoEnd)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// Files are filled up to whole blocks of media. Bytes that were put in among pixels which end in zeros look the same,
+/// except for the length of the file.
+bool DicomWalker::zerosToTheEnd(std::uint64_t& zeros) {
+    constexpr std::uint64_t kBlock = 512;
+    bool isZero = true;
+    for (std::string_view next = stream_.peek(kBlock); !next.empty() && isZero; next = stream_.peek(kBlock)) {
+        isZero = std::all_of(next.begin(), next.end(), [](char c) { return c == 0; });
+        zeros += next.size();
+        isZero = stream_.skip(next.size()) && isZero;
+    }
+    if (isZero && stream_.position() % kBlock == 0) {
+        return true;
+    }
+    problem_ = kNoElement;
+    return false;
 }
 
 bool DicomWalker::element(const Element& here, DicomDataSet& into, std::uint64_t end) {
@@ -188,11 +266,16 @@ bool DicomWalker::element(const Element& here, DicomDataSet& into, std::uint64_t
 }
 
 bool DicomWalker::value(const Element& here, DicomDataSet& into) {
-    constexpr std::uint32_t kLongest = 4096;
+    constexpr std::uint32_t kLongestText = 4096;
+    constexpr std::uint32_t kLongestList = 1U << 20U;
+    constexpr std::uint32_t kLongestContour = 1U << 28U; // its bytes are in the file, or the walk ends here
+    const std::uint32_t longest = here.tag == dicom::kFrameOffsets  ? kLongestList
+                                  : here.tag == dicom::kContourData ? kLongestContour
+                                                                    : kLongestText;
     if (std::any_of(into.values.begin(), into.values.end(), [&](const auto& one) { return one.first == here.tag; })) {
         return fail(here, "comes a second time");
     }
-    if (here.length > kLongest) {
+    if (here.length > longest) {
         return fail(here, "is " + std::to_string(here.length) + " bytes long, far more than such an element has");
     }
     std::string bytes(here.length, '\0');
@@ -319,8 +402,9 @@ bool DicomWalker::fragments(const Element& here, DicomPixelData& into) {
     }
 }
 
-bool DicomWalker::pixelData(const Element& here) {
+bool DicomWalker::pixelData(const Element& here, const DicomDataSet& set) {
     DicomPixelData data;
+    stream_.allow(pixelBytes(set));
     data.tag = here.tag;
     data.words = here.type == "OW" || here.type.empty();
     data.encapsulated = here.length == kUndefined;

@@ -17,6 +17,9 @@ class DicomWalker {
     [[nodiscard]] bool meta(DicomDataSet& into);
     /// All elements up to the pixels, or to the end of the file where there are none.
     [[nodiscard]] bool dataSet(DicomDataSet& into);
+    /// After dataSet(), where there are pixels: all elements behind them. `zeros`: how many bytes of zero fill the last
+    /// block of the file.
+    [[nodiscard]] bool behindPixels(std::uint64_t& zeros);
 
     /// Why the last call gave false.
     [[nodiscard]] const std::string& problem() const noexcept { return problem_; }
@@ -43,7 +46,8 @@ class DicomWalker {
     [[nodiscard]] bool items(const Element& element, std::vector<DicomDataSet>& into, std::uint64_t end);
     [[nodiscard]] bool item(const Element& item, DicomDataSet& into, std::uint64_t end);
     [[nodiscard]] bool fragments(const Element& element, DicomPixelData& into);
-    [[nodiscard]] bool pixelData(const Element& element);
+    [[nodiscard]] bool pixelData(const Element& element, const DicomDataSet& set);
+    [[nodiscard]] bool zerosToTheEnd(std::uint64_t& zeros);
 
     DicomStream& stream_;
     bool typed_;

@@ -23,6 +23,7 @@ namespace fs = std::filesystem;
 
 struct MetaHeader {
     std::map<std::string, std::string, std::less<>> fields;
+    std::vector<std::string> listed; ///< the files that follow "ElementDataFile = LIST"
 
     [[nodiscard]] bool has(std::string_view key) const { return fields.find(key) != fields.end(); }
     [[nodiscard]] bool hasAny(std::span<const std::string_view> keys) const {
@@ -37,7 +38,7 @@ struct MetaHeader {
     }
 };
 
-/// `Key = value` lines; ElementDataFile is the last one, and a LOCAL file's voxels are next.
+/// `Key = value` or `Key: value` lines; ElementDataFile is the last one, and a LOCAL file's voxels are next.
 Result<MetaHeader> readHeader(ByteReader& reader) {
     MetaHeader header;
     constexpr std::size_t kLongest = 1 << 20;
@@ -50,7 +51,7 @@ Result<MetaHeader> readHeader(ByteReader& reader) {
             break;
         }
         length += line->size() + 1;
-        const std::size_t equals = line->find('=');
+        const std::size_t equals = line->find_first_of("=:");
         if (equals == std::string::npos) {
             if (trimmed(*line).empty()) {
                 continue;
@@ -67,6 +68,12 @@ Result<MetaHeader> readHeader(ByteReader& reader) {
                                                  inQuotes(value));
         }
         if (key == "ElementDataFile") {
+            // "LIST 2D" says how many axes the image of a file has.
+            if (value.starts_with("LIST")) {
+                Result<std::vector<std::string>> names = listedNames(reader);
+                VOXTACT_TRY(names);
+                header.listed = std::move(*names);
+            }
             break;
         }
     }
@@ -207,14 +214,25 @@ Result<bool> isSwapped(const fs::path& path, const MetaHeader& header) {
     return (header.isTrue(one) || header.isTrue(other)) == (std::endian::native == std::endian::little);
 }
 
-/// A reader that stands at the first voxel: `local` where the header's file holds them.
-Result<ByteReader> openVoxels(const VolumeSource& source, ByteReader local, const MetaHeader& header,
-                              std::uint64_t needed) {
-    const fs::path path = local.path();
+Result<VoxelFiles> filesOf(const fs::path& path, const MetaHeader& header) {
+    VoxelFiles files;
     const std::string_view name = header.get("ElementDataFile");
-    const bool isLocal = name == "LOCAL" || name == "Local" || name == "local";
-    if (name.starts_with("LIST") || name.find('%') != std::string_view::npos) {
-        return cannotRead(path, "its voxels are spread over several files; convert it to one .mha file");
+    const bool isLocal = lowered(std::string(name)) == "local";
+    const bool isText = header.has("BinaryData") && !header.isTrue("BinaryData");
+    files.coding = header.isTrue("CompressedData") ? VoxelFiles::Coding::ZlibOrGzip
+                   : isText                        ? VoxelFiles::Coding::Text
+                                                   : VoxelFiles::Coding::Raw;
+    if (!header.listed.empty()) {
+        files.names = header.listed;
+    } else if (name.find('%') != std::string_view::npos) {
+        std::optional<std::vector<std::string>> names = numberedNames(name);
+        if (!names) {
+            return cannotRead(path, "its 'ElementDataFile' " + inQuotes(name) +
+                                        " is no pattern of file names (NAME%03d.raw FIRST LAST STEP)");
+        }
+        files.names = std::move(*names);
+    } else if (!isLocal) {
+        files.names = {std::string(name)};
     }
     const std::optional<std::int64_t> skip =
         header.get("HeaderSize").empty() ? std::optional<std::int64_t>(0) : integer(header.get("HeaderSize"));
@@ -224,20 +242,11 @@ Result<ByteReader> openVoxels(const VolumeSource& source, ByteReader local, cons
     if (isLocal && *skip > 0) {
         return cannotRead(path, "its voxels follow its header, and 'HeaderSize' puts them elsewhere; mend its header");
     }
-    Result<ByteReader> reader = isLocal ? std::move(local) : source.openBeside(path, name);
-    VOXTACT_TRY(reader);
-    if (header.isTrue("CompressedData")) {
-        if (*skip != 0) {
-            return cannotRead(path, "compressed data behind a 'HeaderSize' is not supported; write it anew");
-        }
-        const Result<void> unpacked = reader->unpack(ByteReader::Packing::ZlibOrGzip);
-        return unpacked.ok() ? std::move(reader) : Result<ByteReader>(unpacked.error());
-    }
-    // -1: the voxels are the end of the file.
-    const std::uint64_t before =
-        *skip < 0 ? reader->stored() - std::min(needed, reader->stored()) : static_cast<std::uint64_t>(*skip);
-    const Result<std::uint64_t> skipped = reader->skip(before);
-    return skipped.ok() ? std::move(reader) : Result<ByteReader>(skipped.error());
+    files.skippedBytes = *skip;
+    const Result<bool> swapped = isSwapped(path, header);
+    VOXTACT_TRY(swapped);
+    files.swapped = *swapped;
+    return files;
 }
 
 std::vector<std::string> notesOf(const MetaHeader& header, const Grid& grid, StoredType type) {
@@ -254,7 +263,8 @@ std::vector<std::string> notesOf(const MetaHeader& header, const Grid& grid, Sto
         notes.push_back(std::string("the file does not say how its axes lie") + letters +
                         "; left, posterior, superior is taken");
     }
-    if (storedBytes(type) > 1 && !header.hasAny(kByteOrders)) {
+    if (storedBytes(type) > 1 && !header.hasAny(kByteOrders) &&
+        (!header.has("BinaryData") || header.isTrue("BinaryData"))) {
         notes.emplace_back("the file does not say its byte order; the least significant byte is taken as the first");
     }
     noteShear(grid, notes);
@@ -281,20 +291,13 @@ Result<ContainedImage> readMeta(const VolumeSource& source, const fs::path& path
     VOXTACT_TRY(sizes);
     const Result<StoredType> type = storedType(path, *header);
     VOXTACT_TRY(type);
-    const Result<std::uint64_t> needed = imageBytes(path, *sizes, storedBytes(*type));
-    VOXTACT_TRY(needed);
-    if (!header->get("BinaryData").empty() && !header->isTrue("BinaryData")) {
-        return cannotRead(path, "its voxels are text, where a missing end goes unseen; write it as binary data");
-    }
+    VOXTACT_TRY(imageBytes(path, *sizes, storedBytes(*type)));
     const Result<Grid> grid = gridOf(path, *header, *sizes);
     VOXTACT_TRY(grid);
-    const Result<bool> swapped = isSwapped(path, *header);
-    VOXTACT_TRY(swapped);
-    Result<ByteReader> voxels = openVoxels(source, std::move(*reader), *header, *needed);
-    VOXTACT_TRY(voxels);
+    const Result<VoxelFiles> files = filesOf(path, *header);
+    VOXTACT_TRY(files);
     ContainedImage contained{{*grid, *type, std::nullopt, {}}, notesOf(*header, *grid, *type)};
-    VOXTACT_TRY(takeVoxels(*voxels, contained.image, *swapped));
-    VOXTACT_TRY(voxels->finish());
+    VOXTACT_TRY(readVoxels(source, std::move(*reader), *files, contained));
     return contained;
 }
 

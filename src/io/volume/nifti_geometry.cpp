@@ -258,7 +258,7 @@ void setNiftiGrid(NiftiHeader& header, const Grid& grid) {
     const double volume =
         x[0] * (y[1] * z[2] - y[2] * z[1]) + x[1] * (y[2] * z[0] - y[0] * z[2]) + x[2] * (y[0] * z[1] - y[1] * z[0]);
     header.pixdim[0] = volume < 0 ? -1 : 1;
-    if (shearDegrees(grid) > kMostShear) {
+    if (shearDegrees(grid) > kMaxShear) {
         return;
     }
     header.qformCode = kScannerPlace;
@@ -288,7 +288,7 @@ Result<Grid> niftiGrid(const fs::path& path, const NiftiHeader& written, std::ve
     if (!grid.ok()) {
         return grid;
     }
-    if (const double shear = shearDegrees(*grid); shear > kMostShear) {
+    if (const double shear = shearDegrees(*grid); shear > kMaxShear) {
         return cannotRead(path, "its sform shears the image by " + rounded(shear) +
                                     " degrees (its axes are not at right angles); resample it to an upright grid");
     }

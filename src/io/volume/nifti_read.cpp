@@ -5,6 +5,7 @@
 #include "io/errors.h"
 #include "io/volume/nifti_header.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -91,11 +92,23 @@ struct NiftiContent {
     NiftiHeader header;
     StoredImage image; ///< without voxels
     std::uint64_t voxelsAt = 0;
+    std::uint64_t behind = 0; ///< bytes of the images that follow
     std::vector<std::string> notes;
 };
 
+/// Sizes of 0 beyond the third, which some programs write for an axis that they do not use, are 1.
+void takeUnusedAxes(NiftiHeader& header, std::vector<std::string>& notes) {
+    for (std::size_t axis = 3; axis < header.sizes.size(); ++axis) {
+        if (header.sizes[axis] == 0) {
+            notes.push_back("the file's dim[" + std::to_string(axis + 1) + "] is 0; 1 is taken");
+            header.sizes[axis] = 1;
+        }
+    }
+}
+
 Result<NiftiContent> contentOf(const fs::path& path, NiftiHeader header, const VolumeReadOptions& options) {
     NiftiContent content;
+    takeUnusedAxes(header, content.notes);
     const Result<StoredType> type = storedType(path, header.type);
     VOXTACT_TRY(type);
     std::uint64_t frames = 0;
@@ -109,6 +122,7 @@ Result<NiftiContent> contentOf(const fs::path& path, NiftiHeader header, const V
     VOXTACT_TRY(scaling);
     content.image = {*grid, *type, *scaling, {}};
     content.voxelsAt = header.voxelOffset + *frame * *bytes;
+    content.behind = (frames - 1 - *frame) * *bytes;
     content.header = std::move(header);
     return content;
 }
@@ -159,7 +173,9 @@ Result<ContainedImage> readNifti(const VolumeSource& source, const fs::path& pat
     ByteReader& reader = *opener;
     VOXTACT_TRY(reader.skip(content.voxelsAt - (pair ? 0 : opened->readBytes)));
     VOXTACT_TRY(takeVoxels(reader, content.image, content.header.swapped));
-    VOXTACT_TRY(reader.finish());
+    const Result<std::uint64_t> left = reader.finish();
+    VOXTACT_TRY(left);
+    noteMore(*left - std::min(*left, content.behind), content.notes);
     return ContainedImage{std::move(content.image), std::move(content.notes)};
 }
 

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace voxtact::io {
@@ -23,57 +24,54 @@ Error damaged(const fs::path& path, std::string_view field, std::string_view tex
     return cannotRead(path, "its NRRD header is damaged ('" + std::string(field) + "' is " + inQuotes(text) + ")");
 }
 
+/// A number, or NaN where it is not known: "nan" in any case.
+bool parseMaybe(std::string_view token, double& value) {
+    const std::string word = lowered(std::string(token));
+    if (word == "nan" || word == "-nan") {
+        value = std::numeric_limits<double>::quiet_NaN();
+        return true;
+    }
+    return !parseNumber(token, value);
+}
+
 /// "(1,0,0)" with blanks anywhere.
 std::optional<Vec3> vectorOf(std::string_view text) {
     Vec3 vector{};
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t end = i < 2 ? text.find(',') : text.size();
-        if (end == std::string_view::npos || parseNumber(trimmed(text.substr(0, end)), vector[i])) {
+        if (end == std::string_view::npos || !parseMaybe(trimmed(text.substr(0, end)), vector[i])) {
             return std::nullopt;
         }
         text.remove_prefix(std::min(end + 1, text.size()));
     }
-    return vector;
-}
-
-/// A list of vectors in brackets; one that is "none" is left out of it, and stands for an axis that is not in space.
-std::optional<std::vector<std::optional<Vec3>>> vectorsOf(std::string_view text) {
-    std::vector<std::optional<Vec3>> vectors;
-    for (text = trimmed(text); !text.empty(); text = trimmed(text)) {
-        if (text.starts_with("none")) {
-            vectors.emplace_back(std::nullopt);
-            text.remove_prefix(4);
-            continue;
-        }
-        const std::size_t end = text.find(')');
-        const std::optional<Vec3> vector =
-            text.starts_with('(') && end != std::string_view::npos ? vectorOf(text.substr(1, end - 1)) : std::nullopt;
-        if (!vector) {
-            return std::nullopt;
-        }
-        vectors.emplace_back(vector);
-        text.remove_prefix(end + 1);
-    }
-    return vectors;
+    const auto unknown = std::count_if(vector.begin(), vector.end(), [](double x) { return std::isnan(x); });
+    return unknown == 0 || unknown == 3 ? std::optional(vector) : std::nullopt;
 }
 
 /// Of the lengths in a file: millimetres where it does not say it. All axes in space have one.
-Result<LengthUnit> unitOf(const fs::path& path, const NrrdHeader& header, bool inSpace) {
+Result<LengthUnit> unitOf(const fs::path& path, const NrrdHeader& header, const NrrdAxes& axes, bool inSpace) {
     const std::string_view field = inSpace ? "spaceunits" : "units";
     const std::string text = header.get(field);
-    std::optional<LengthUnit> unit;
-    std::size_t axis = 0;
-    for (std::size_t at = text.find('"'); at != std::string::npos && axis < 3; at = text.find('"', at), ++axis) {
+    std::vector<std::string_view> names;
+    for (std::size_t at = text.find('"'); at != std::string::npos; at = text.find('"', at)) {
         const std::size_t end = text.find('"', at + 1);
         if (end == std::string::npos) {
             return damaged(path, field, text);
         }
-        const LengthUnit here = lengthUnit(std::string_view(text).substr(at + 1, end - at - 1)).value_or(LengthUnit{});
+        names.push_back(std::string_view(text).substr(at + 1, end - at - 1));
+        at = end + 1;
+    }
+    std::optional<LengthUnit> unit;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::size_t place = inSpace ? axis : axes.places[axis];
+        if (place >= names.size()) {
+            break;
+        }
+        const LengthUnit here = lengthUnit(names[place]).value_or(LengthUnit{});
         if (unit && unit->millimetres != here.millimetres) {
             return cannotRead(path, "its axes have different units of length (" + inQuotes(text) + "); write it anew");
         }
         unit = unit && !unit->unknown.empty() ? *unit : here;
-        at = end + 1;
     }
     return unit.value_or(LengthUnit{});
 }
@@ -109,57 +107,64 @@ Result<void> checkSpaceDimensions(const fs::path& path, const std::string& space
     return {};
 }
 
-/// The numbers of a field with one for each axis; none where it is not there. An axis that has none says "nan".
-Result<std::optional<Vec3>> perAxis(const fs::path& path, const NrrdHeader& header, std::string_view field,
-                                    std::size_t axes) {
+/// The numbers of a field with one for each axis; NaN where they are not said.
+Result<Vec3> perAxis(const fs::path& path, const NrrdHeader& header, std::string_view field, const NrrdAxes& axes) {
     const std::string text = header.get(field);
-    std::optional<Vec3> numbers;
-    if (text.empty()) {
-        return numbers;
-    }
+    constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+    Vec3 numbers{kUnknown, kUnknown, kUnknown};
     std::vector<std::string_view> tokens;
     splitTokens(text, tokens);
-    numbers.emplace();
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (tokens.size() != axes || parseNumber(tokens[axis], (*numbers)[axis])) {
+    for (std::size_t axis = 0; axis < 3 && !text.empty(); ++axis) {
+        if (tokens.size() != axes.sizes.size() || !parseMaybe(tokens[axes.places[axis]], numbers[axis])) {
             return damaged(path, field, text);
         }
     }
     return numbers;
 }
 
-/// With a space: a vector for each axis, and the centre of the first voxel.
-Result<AffineSteps> spaceSteps(const fs::path& path, const NrrdHeader& header, std::size_t axes,
+bool isKnown(const Vec3& numbers) {
+    return std::none_of(numbers.begin(), numbers.end(), [](double x) { return std::isnan(x); });
+}
+
+/// With a space: a vector for each axis, and the centre of the first voxel. mm.
+Result<AffineSteps> spaceSteps(const fs::path& path, const NrrdHeader& header, const NrrdAxes& axes, double unit,
                                std::vector<std::string>& notes) {
     AffineSteps affine;
     affine.directions = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
-    if (!header.get("spacings").empty()) {
+    const Result<Vec3> spacings = perAxis(path, header, "spacings", axes);
+    VOXTACT_TRY(spacings);
+    if (std::any_of(spacings->begin(), spacings->end(), [](double x) { return !std::isnan(x); })) {
         return cannotRead(path,
                           "its NRRD header says 'spacings' together with a space, which NRRD forbids; write it anew");
     }
     if (const std::string text = header.get("spacedirections"); !text.empty()) {
-        const auto vectors = vectorsOf(text);
-        if (!vectors || vectors->size() != axes) {
+        const auto vectors = nrrdVectors(text);
+        if (!vectors || vectors->size() != axes.sizes.size()) {
             return damaged(path, "space directions", text);
         }
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            if (!(*vectors)[axis]) {
-                return cannotRead(path, "its voxels are not single numbers (axis " + std::to_string(axis) +
+            const std::optional<Vec3>& vector = (*vectors)[axes.places[axis]];
+            if (!vector) {
+                return cannotRead(path, "its voxels are not single numbers (axis " + std::to_string(axes.places[axis]) +
                                             " has no direction in space); convert it to integers or floats");
             }
-            affine.directions[axis] = *(*vectors)[axis];
+            affine.directions[axis] = *vector;
+            affine.lengths[axis] = unit;
         }
     } else {
         notes.emplace_back(kNoSpacing);
     }
-    if (const std::string text = header.get("spaceorigin"); !text.empty()) {
-        const auto origin = vectorsOf(text);
-        if (!origin || origin->size() != 1 || !origin->front()) {
-            return damaged(path, "space origin", text);
-        }
-        affine.origin = *origin->front();
-    } else {
+    const std::string text = header.get("spaceorigin");
+    const auto origin = nrrdVectors(text);
+    if (!origin || origin->size() > 1) {
+        return damaged(path, "space origin", text);
+    }
+    if (origin->empty() || !origin->front()) {
         notes.emplace_back(kNoOrigin);
+        return affine;
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        affine.origin[axis] = (*origin->front())[axis] * unit;
     }
     return affine;
 }
@@ -170,79 +175,84 @@ struct Centerings {
     bool isSaid = true; ///< else a border is taken
 };
 
-Centerings centeringsOf(const NrrdHeader& header) {
+Centerings centeringsOf(const NrrdHeader& header, const NrrdAxes& axes) {
     std::vector<std::string_view> centres;
     const std::string text = header.get(header.get("centers").empty() ? "centerings" : "centers");
     splitTokens(text, centres);
     Centerings found;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const std::string_view centre = axis < centres.size() ? centres[axis] : std::string_view();
+        const std::size_t place = axes.places[axis];
+        const std::string_view centre = place < centres.size() ? centres[place] : std::string_view();
         found.node[axis] = centre == "node";
         found.isSaid = found.isSaid && (centre == "node" || centre == "cell");
     }
     return found;
 }
 
-/// The distances between voxels, from one end of each axis to the other.
-std::optional<Vec3> lengthsBetween(const Vec3& mins, const Vec3& maxs, const std::vector<std::int64_t>& sizes,
-                                   const Centerings& centerings) {
+/// The distances between voxels, from one end of each axis to the other; NaN where that says none.
+Vec3 lengthsBetween(const Vec3& mins, const Vec3& maxs, const NrrdAxes& axes, const Centerings& centerings) {
     Vec3 lengths{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        lengths[axis] = (maxs[axis] - mins[axis]) / static_cast<double>(sizes[axis] - (centerings.node[axis] ? 1 : 0));
+        const auto steps = static_cast<double>(axes.sizes[axis] - (centerings.node[axis] ? 1 : 0));
+        lengths[axis] = (maxs[axis] - mins[axis]) / steps;
         if (!(lengths[axis] > 0) || !std::isfinite(lengths[axis])) {
-            return std::nullopt;
+            lengths[axis] = std::numeric_limits<double>::quiet_NaN();
         }
     }
     return lengths;
 }
 
-bool isNearly(const Vec3& a, const Vec3& b) {
+/// `ofAxes`: by where the axes begin and end.
+Vec3 lengthsOf(const Vec3& spacings, const Vec3& ofAxes, double unit, std::vector<std::string>& notes) {
     constexpr double kRounding = 1e-4; // of what is written
-    bool nearly = true;
+    Vec3 lengths{};
+    bool differs = false;
+    bool taken = false;
+    std::string unsaid;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        nearly = nearly && std::abs(a[axis] - b[axis]) <= kRounding * std::abs(a[axis]);
-    }
-    return nearly;
-}
-
-/// `ofAxes`: by where the axes begin and end, if they say it.
-Vec3 lengthsOf(const std::optional<Vec3>& spacings, const std::optional<Vec3>& ofAxes,
-               std::vector<std::string>& notes) {
-    if (spacings) {
-        if (ofAxes && !isNearly(*spacings, *ofAxes)) {
-            notes.emplace_back("the file's 'axis mins' and 'axis maxs' do not fit its 'spacings'; these are taken");
+        const bool isSaid = !std::isnan(spacings[axis]);
+        differs = differs || std::abs(spacings[axis] - ofAxes[axis]) > kRounding * std::abs(spacings[axis]);
+        taken = taken || (!isSaid && !std::isnan(ofAxes[axis]));
+        lengths[axis] = (isSaid ? spacings[axis] : ofAxes[axis]) * unit;
+        if (std::isnan(lengths[axis])) {
+            lengths[axis] = 1;
+            unsaid += (unsaid.empty() ? "" : " and ") + std::to_string(axis);
         }
-        return *spacings;
     }
-    if (ofAxes) {
+    if (differs) {
+        notes.emplace_back("the file's 'axis mins' and 'axis maxs' do not fit its 'spacings'; these are taken");
+    }
+    if (taken) {
         notes.emplace_back("the file does not say its spacing; what 'axis mins' and 'axis maxs' say of it is taken");
-        return *ofAxes;
     }
-    notes.emplace_back(kNoSpacing);
-    return {1, 1, 1};
+    if (unsaid.find("and") != unsaid.rfind("and")) {
+        notes.emplace_back(kNoSpacing);
+    } else if (!unsaid.empty()) {
+        notes.push_back("the file does not say its spacing along axis " + unsaid + "; 1 mm is taken");
+    }
+    return lengths;
 }
 
 /// Without one: a distance for each axis, and where the first voxel begins or has its centre, and where the last one
-/// ends.
-Result<AffineSteps> plainSteps(const fs::path& path, const NrrdHeader& header, const std::vector<std::int64_t>& sizes,
+/// ends. mm.
+Result<AffineSteps> plainSteps(const fs::path& path, const NrrdHeader& header, const NrrdAxes& axes, double unit,
                                std::vector<std::string>& notes) {
     AffineSteps affine;
     affine.directions = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
-    const Result<std::optional<Vec3>> spacings = perAxis(path, header, "spacings", sizes.size());
+    const Result<Vec3> spacings = perAxis(path, header, "spacings", axes);
     VOXTACT_TRY(spacings);
-    const Result<std::optional<Vec3>> mins = perAxis(path, header, "axismins", sizes.size());
+    const Result<Vec3> mins = perAxis(path, header, "axismins", axes);
     VOXTACT_TRY(mins);
-    const Result<std::optional<Vec3>> maxs = perAxis(path, header, "axismaxs", sizes.size());
+    const Result<Vec3> maxs = perAxis(path, header, "axismaxs", axes);
     VOXTACT_TRY(maxs);
-    const Centerings centerings = centeringsOf(header);
-    affine.lengths =
-        lengthsOf(*spacings, *mins && *maxs ? lengthsBetween(**mins, **maxs, sizes, centerings) : std::nullopt, notes);
-    if (!*mins) {
+    const Centerings centerings = centeringsOf(header, axes);
+    affine.lengths = lengthsOf(*spacings, lengthsBetween(*mins, *maxs, axes, centerings), unit, notes);
+    if (!isKnown(*mins)) {
         notes.emplace_back(kNoOrigin);
         return affine;
     }
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        affine.origin[axis] = (**mins)[axis] + (centerings.node[axis] ? 0 : affine.lengths[axis] / 2);
+        affine.origin[axis] = (*mins)[axis] * unit + (centerings.node[axis] ? 0 : affine.lengths[axis] / 2);
     }
     if (!centerings.isSaid) {
         notes.emplace_back(
@@ -254,7 +264,27 @@ Result<AffineSteps> plainSteps(const fs::path& path, const NrrdHeader& header, c
 
 } // namespace
 
-Result<Grid> nrrdGrid(const fs::path& path, const NrrdHeader& header, const std::vector<std::int64_t>& sizes,
+std::optional<std::vector<std::optional<Vec3>>> nrrdVectors(std::string_view text) {
+    std::vector<std::optional<Vec3>> vectors;
+    for (text = trimmed(text); !text.empty(); text = trimmed(text)) {
+        if (text.starts_with("none")) {
+            vectors.emplace_back(std::nullopt);
+            text.remove_prefix(4);
+            continue;
+        }
+        const std::size_t end = text.find(')');
+        const std::optional<Vec3> vector =
+            text.starts_with('(') && end != std::string_view::npos ? vectorOf(text.substr(1, end - 1)) : std::nullopt;
+        if (!vector) {
+            return std::nullopt;
+        }
+        vectors.push_back(isKnown(*vector) ? vector : std::nullopt);
+        text.remove_prefix(end + 1);
+    }
+    return vectors;
+}
+
+Result<Grid> nrrdGrid(const fs::path& path, const NrrdHeader& header, const NrrdAxes& axes,
                       std::vector<std::string>& notes) {
     const std::string space = withoutBlanks(header.get("space"));
     VOXTACT_TRY(checkSpaceDimensions(path, space, header));
@@ -264,19 +294,16 @@ Result<Grid> nrrdGrid(const fs::path& path, const NrrdHeader& header, const std:
                            "axes are taken as left, posterior, superior");
     }
     const bool inSpace = !space.empty() || !header.get("spacedimension").empty();
-    const Result<LengthUnit> unit = unitOf(path, header, inSpace);
-    Result<AffineSteps> affine = !unit.ok() ? Result<AffineSteps>(unit.error())
-                                 : inSpace  ? spaceSteps(path, header, sizes.size(), notes)
-                                            : plainSteps(path, header, sizes, notes);
+    const Result<LengthUnit> unit = unitOf(path, header, axes, inSpace);
+    VOXTACT_TRY(unit);
+    Result<AffineSteps> affine = inSpace ? spaceSteps(path, header, axes, unit->millimetres, notes)
+                                         : plainSteps(path, header, axes, unit->millimetres, notes);
     VOXTACT_TRY(affine);
     Grid grid;
-    // What is taken where nothing is said is in millimetres.
-    const bool isSaid = std::find(notes.begin(), notes.end(), kNoSpacing) == notes.end();
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        grid.size[axis] = static_cast<std::uint32_t>(sizes[axis]);
-        affine->lengths[axis] *= isSaid ? unit->millimetres : 1;
+        grid.size[axis] = static_cast<std::uint32_t>(axes.sizes[axis]);
         const double sign = signs ? (*signs)[axis] : 1;
-        affine->origin[axis] *= unit->millimetres * sign;
+        affine->origin[axis] *= sign;
         for (Vec3& direction : affine->directions) {
             direction[axis] *= sign;
         }

@@ -29,6 +29,15 @@ Result<void> addField(const fs::path& path, std::string_view name, std::string_v
     return {};
 }
 
+std::string unescaped(std::string_view text) {
+    std::string plain;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const bool escape = text[i] == '\\' && i + 1 < text.size();
+        plain += !escape ? text[i] : text[++i] == 'n' ? '\n' : text[i];
+    }
+    return plain;
+}
+
 } // namespace
 
 std::optional<std::int64_t> NrrdHeader::integer(std::string_view key) const {
@@ -65,8 +74,19 @@ Result<NrrdHeader> readNrrdHeader(ByteReader& reader) {
         header.complete = text.empty() && reader.lineEnded();
         const std::size_t colon = text.find(": ");
         // "key:=value" is a note of somebody's.
+        if (const std::size_t key = text.find(":="); key < colon && !text.starts_with('#')) {
+            header.keys.try_emplace(std::string(text.substr(0, key)), unescaped(text.substr(key + 2)));
+        }
         if (colon != std::string_view::npos && colon < text.find(":=") && !text.starts_with('#')) {
-            VOXTACT_TRY(addField(reader.path(), text.substr(0, colon), trimmed(text.substr(colon + 1)), header));
+            const std::string_view value = trimmed(text.substr(colon + 1));
+            VOXTACT_TRY(addField(reader.path(), text.substr(0, colon), value, header));
+            // "LIST 2" says how many axes the image of a file has.
+            if (withoutBlanks(text.substr(0, colon)) == "datafile" && value.starts_with("LIST")) {
+                Result<std::vector<std::string>> names = listedNames(reader);
+                VOXTACT_TRY(names);
+                header.listed = std::move(*names);
+                break;
+            }
         }
     }
     for (const char* needed : {"type", "dimension", "sizes", "encoding"}) {
@@ -78,7 +98,7 @@ Result<NrrdHeader> readNrrdHeader(ByteReader& reader) {
     return header;
 }
 
-Result<std::vector<std::int64_t>> nrrdSizes(const fs::path& path, const NrrdHeader& header) {
+Result<NrrdAxes> nrrdAxes(const fs::path& path, const NrrdHeader& header) {
     std::vector<std::string_view> tokens;
     const std::string text = header.get("sizes");
     splitTokens(text, tokens);
@@ -93,17 +113,38 @@ Result<std::vector<std::int64_t>> nrrdSizes(const fs::path& path, const NrrdHead
     if (header.get("dimension") != std::to_string(sizes.size())) {
         return cannotRead(path, "its NRRD header is damaged: 'sizes' does not have 'dimension' numbers");
     }
-    // A "domain" axis is one in space; others hold components.
     std::vector<std::string_view> kinds;
     const std::string kindText = header.get("kinds");
     splitTokens(kindText, kinds);
-    for (std::size_t i = 0; i < std::min<std::size_t>(kinds.size(), 3); ++i) {
-        if (kinds[i] != "domain" && kinds[i] != "space" && kinds[i] != "???" && kinds[i] != "none") {
-            return cannotRead(path, "its voxels are not single numbers (axis " + std::to_string(i) + " is " +
-                                        inQuotes(kinds[i]) + "); convert it to integers or floats");
+    const auto directions = nrrdVectors(header.get("spacedirections"));
+    // A "domain" axis is one in space; others hold components.
+    const auto isDomain = [&](std::size_t axis) {
+        return axis >= kinds.size() || kinds[axis] == "domain" || kinds[axis] == "space" || kinds[axis] == "???" ||
+               kinds[axis] == "none";
+    };
+    const auto hasDirection = [&](std::size_t axis) {
+        return !directions || axis >= directions->size() || (*directions)[axis];
+    };
+    NrrdAxes axes;
+    std::vector<std::int64_t> others;
+    std::size_t inSpace = 0;
+    for (std::size_t axis = 0; axis < sizes.size(); ++axis) {
+        const bool isStub = sizes[axis] == 1 && (!isDomain(axis) || !hasDirection(axis));
+        if (inSpace == 3 || (isStub && sizes.size() > 3)) {
+            others.push_back(sizes[axis]);
+            continue;
         }
+        if (!isDomain(axis)) {
+            return cannotRead(path, "its voxels are not single numbers (axis " + std::to_string(axis) + " is " +
+                                        inQuotes(kinds[axis]) + "); convert it to integers or floats");
+        }
+        axes.places[inSpace++] = axis;
+        axes.sizes.push_back(sizes[axis]);
     }
-    return sizes;
+    if (inSpace == 3) {
+        axes.sizes.insert(axes.sizes.end(), others.begin(), others.end());
+    }
+    return axes;
 }
 
 } // namespace voxtact::io

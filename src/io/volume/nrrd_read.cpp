@@ -4,7 +4,6 @@
 #include "io/text/text_lines.h"
 #include "io/volume/nrrd_header.h"
 
-#include <algorithm>
 #include <array>
 #include <bit>
 
@@ -42,18 +41,18 @@ std::optional<StoredType> storedType(const std::string& type) {
     return std::nullopt;
 }
 
-constexpr std::string_view kRaw = "raw";
-
-std::string encodingOf(const NrrdHeader& header) {
-    return withoutBlanks(header.get("encoding"));
-}
-
-Result<void> checkEncoding(const fs::path& path, const NrrdHeader& header) {
-    const std::string encoding = encodingOf(header);
-    if (encoding != kRaw && encoding != "gzip" && encoding != "gz") {
-        return cannotRead(path, "its encoding " + inQuotes(encoding) + " is not supported; write it as raw or gzip");
+Result<VoxelFiles::Coding> codingOf(const fs::path& path, const NrrdHeader& header) {
+    const std::string encoding = withoutBlanks(header.get("encoding"));
+    if (encoding == "raw") {
+        return VoxelFiles::Coding::Raw;
     }
-    return {};
+    if (encoding == "gzip" || encoding == "gz") {
+        return VoxelFiles::Coding::Gzip;
+    }
+    if (encoding == "ascii" || encoding == "text" || encoding == "txt") {
+        return VoxelFiles::Coding::Text;
+    }
+    return cannotRead(path, "its encoding " + inQuotes(encoding) + " is not supported; write it as raw or gzip");
 }
 
 Result<bool> isSwapped(const fs::path& path, const NrrdHeader& header, StoredType type) {
@@ -67,33 +66,24 @@ Result<bool> isSwapped(const fs::path& path, const NrrdHeader& header, StoredTyp
     return (endian == "big") == (std::endian::native == std::endian::little);
 }
 
-/// Lines and bytes in front of the voxels; -1 bytes: the voxels are the end of the file.
-Result<void> skipBefore(ByteReader& reader, std::int64_t lines, std::int64_t bytes, std::uint64_t needed) {
-    for (std::int64_t i = 0; i < lines && reader.stored() > 0; ++i) {
-        do {
-            constexpr std::size_t kPiece = 1 << 16;
-            const Result<std::optional<std::string>> line = reader.line(kPiece);
-            VOXTACT_TRY(line);
-            if (!line->has_value()) {
-                break;
-            }
-        } while (!reader.lineEnded());
-    }
-    const std::uint64_t before =
-        bytes < 0 ? reader.stored() - std::min(needed, reader.stored()) : static_cast<std::uint64_t>(bytes);
-    const Result<std::uint64_t> skipped = reader.skip(before);
-    return skipped.ok() ? Result<void>{} : Result<void>{skipped.error()};
-}
-
-/// A reader that stands at the first voxel: `attached` where the header's file holds them.
-Result<ByteReader> openVoxels(const VolumeSource& source, ByteReader attached, const NrrdHeader& header,
-                              std::uint64_t needed) {
-    const fs::path path = attached.path();
+Result<VoxelFiles> filesOf(const fs::path& path, const NrrdHeader& header, StoredType type) {
+    VoxelFiles files;
+    const Result<VoxelFiles::Coding> coding = codingOf(path, header);
+    VOXTACT_TRY(coding);
+    files.coding = *coding;
     const std::string detached = header.get("datafile");
-    if (!detached.empty() && (detached.starts_with("LIST") || detached.find('%') != std::string::npos)) {
-        return cannotRead(path, "its voxels are spread over several files; convert it to one .nrrd file");
-    }
-    if (detached.empty() && !header.complete) {
+    if (!header.listed.empty()) {
+        files.names = header.listed;
+    } else if (detached.find('%') != std::string::npos) {
+        std::optional<std::vector<std::string>> names = numberedNames(detached);
+        if (!names) {
+            return cannotRead(path, "its 'data file' " + inQuotes(detached) +
+                                        " is no pattern of file names (NAME%03d.raw FIRST LAST STEP)");
+        }
+        files.names = std::move(*names);
+    } else if (!detached.empty()) {
+        files.names = {detached};
+    } else if (!header.complete) {
         return cannotRead(path, "it is truncated: its header does not end; get the file again");
     }
     const std::optional<std::int64_t> lines = header.integer("lineskip");
@@ -101,17 +91,14 @@ Result<ByteReader> openVoxels(const VolumeSource& source, ByteReader attached, c
     if (!lines || *lines < 0 || !bytes || *bytes < -1) {
         return cannotRead(path, "its NRRD header is damaged: 'line skip' or 'byte skip' is not a number");
     }
-    Result<ByteReader> reader = detached.empty() ? std::move(attached) : source.openBeside(path, detached);
-    VOXTACT_TRY(reader);
-    if (encodingOf(header) == kRaw) {
-        const Result<void> skipped = skipBefore(*reader, *lines, *bytes, needed);
-        return skipped.ok() ? std::move(reader) : Result<ByteReader>(skipped.error());
+    files.skippedLines = *lines;
+    files.skippedBytes = *bytes;
+    if (files.coding != VoxelFiles::Coding::Text) {
+        const Result<bool> swapped = isSwapped(path, header, type);
+        VOXTACT_TRY(swapped);
+        files.swapped = *swapped;
     }
-    if (*lines != 0 || *bytes != 0) {
-        return cannotRead(path, "compressed data behind skipped lines or bytes is not supported; write it anew");
-    }
-    const Result<void> unpacked = reader->unpack(ByteReader::Packing::Gzip);
-    return unpacked.ok() ? std::move(reader) : Result<ByteReader>(unpacked.error());
+    return files;
 }
 
 } // namespace
@@ -121,26 +108,39 @@ Result<ContainedImage> readNrrd(const VolumeSource& source, const fs::path& path
     VOXTACT_TRY(reader);
     const Result<NrrdHeader> header = readNrrdHeader(*reader);
     VOXTACT_TRY(header);
-    const Result<std::vector<std::int64_t>> sizes = nrrdSizes(path, *header);
-    VOXTACT_TRY(sizes);
-    const std::optional<StoredType> type = storedType(header->get("type"));
+    return readNrrdImage(source, std::move(*reader), *header);
+}
+
+Result<ContainedImage> readNrrdImage(const VolumeSource& source, ByteReader reader, const NrrdHeader& header,
+                                     std::size_t axis, std::uint32_t times) {
+    const fs::path path = reader.path();
+    const Result<NrrdAxes> axes = nrrdAxes(path, header);
+    VOXTACT_TRY(axes);
+    const std::optional<StoredType> type = storedType(header.get("type"));
     if (!type) {
-        return cannotRead(path, "its voxels are of the type " + inQuotes(header->get("type")) +
+        return cannotRead(path, "its voxels are of the type " + inQuotes(header.get("type")) +
                                     ", which is not supported; convert it to integers or floats");
     }
-    VOXTACT_TRY(checkEncoding(path, *header));
-    const Result<std::uint64_t> needed = imageBytes(path, *sizes, storedBytes(*type));
-    VOXTACT_TRY(needed);
+    VOXTACT_TRY(imageBytes(path, axes->sizes, storedBytes(*type)));
+    std::vector<std::int64_t> widened = axes->sizes;
+    widened[axis] *= times; // both have 32 bits now
+    VOXTACT_TRY(imageBytes(path, widened, storedBytes(*type)));
     ContainedImage contained;
-    const Result<Grid> grid = nrrdGrid(path, *header, *sizes, contained.notes);
+    const Result<Grid> grid = nrrdGrid(path, header, *axes, contained.notes);
     VOXTACT_TRY(grid);
-    const Result<bool> swapped = isSwapped(path, *header, *type);
-    VOXTACT_TRY(swapped);
-    Result<ByteReader> voxels = openVoxels(source, std::move(*reader), *header, *needed);
-    VOXTACT_TRY(voxels);
+    const Result<VoxelFiles> files = filesOf(path, header, *type);
+    VOXTACT_TRY(files);
+    for (const char* field : {"oldmin", "oldmax"}) {
+        if (!header.get(field).empty()) {
+            contained.notes.push_back("the file says 'old " + std::string(field + 3) +
+                                      "', a range that its voxels had before; they are taken as they are stored");
+            break;
+        }
+    }
     contained.image = {*grid, *type, std::nullopt, {}};
-    VOXTACT_TRY(takeVoxels(*voxels, contained.image, *swapped));
-    VOXTACT_TRY(voxels->finish());
+    contained.image.grid.size[axis] *= times;
+    VOXTACT_TRY(readVoxels(source, std::move(reader), *files, contained));
+    contained.image.grid.size[axis] = grid->size[axis];
     return contained;
 }
 

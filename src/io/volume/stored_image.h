@@ -4,6 +4,7 @@
 #include "voxtact/data.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <vector>
@@ -33,6 +34,33 @@ enum class StoredType { Int8, UInt8, Int16, UInt16, Int32, UInt32, Int64, UInt64
     return 8;
 }
 
+/// Calls `act` with a value of the type that the voxels are stored in.
+template <class Act> auto withStored(StoredType type, Act&& act) {
+    switch (type) {
+    case StoredType::Int8:
+        return act(std::int8_t{});
+    case StoredType::UInt8:
+        return act(std::uint8_t{});
+    case StoredType::Int16:
+        return act(std::int16_t{});
+    case StoredType::UInt16:
+        return act(std::uint16_t{});
+    case StoredType::Int32:
+        return act(std::int32_t{});
+    case StoredType::UInt32:
+        return act(std::uint32_t{});
+    case StoredType::Int64:
+        return act(std::int64_t{});
+    case StoredType::UInt64:
+        return act(std::uint64_t{});
+    case StoredType::Float32:
+        return act(float{});
+    case StoredType::Float64:
+        break;
+    }
+    return act(double{});
+}
+
 /// value = slope * stored + intercept
 struct Scaling {
     double slope = 1;
@@ -50,5 +78,8 @@ struct StoredImage {
 /// Takes the voxels to one of ScalarType: exactly where they are integers, in single precision where they are scaled
 /// or double. Says in the notes what was converted.
 [[nodiscard]] Result<VolumeData> toScalars(StoredImage image, const std::filesystem::path& path);
+
+/// The voxels as labels, without scaling. Refuses one that is not whole or beyond an int32.
+[[nodiscard]] Result<std::vector<std::int32_t>> toLabels(const StoredImage& image, const std::filesystem::path& path);
 
 } // namespace voxtact::io

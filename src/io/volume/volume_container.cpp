@@ -150,17 +150,6 @@ Result<std::uint64_t> frameBytes(const std::filesystem::path& path, std::vector<
     return bytes.ok() && *bytes > kMost / frames ? Result<std::uint64_t>(tooMany(path)) : bytes;
 }
 
-Result<void> takeVoxels(ByteReader& reader, StoredImage& image, bool swapped) {
-    const std::size_t width = storedBytes(image.type);
-    Result<std::vector<std::byte>> bytes = reader.take(voxelCount(image.grid) * width);
-    VOXTACT_TRY(bytes);
-    image.voxels = std::move(*bytes);
-    for (std::size_t at = 0; swapped && width > 1 && at < image.voxels.size(); at += width) {
-        std::reverse(image.voxels.data() + at, image.voxels.data() + at + width);
-    }
-    return {};
-}
-
 Result<void> setSteps(Grid& grid, const AffineSteps& affine, const std::filesystem::path& path) {
     constexpr double kRounding = 1e-6; // of a unit vector in floats
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -171,11 +160,11 @@ Result<void> setSteps(Grid& grid, const AffineSteps& affine, const std::filesyst
         if (!std::isfinite(length) || !std::isfinite(affine.origin[axis])) {
             return cannotRead(path, "its header is damaged: its spacing, direction or origin is not finite");
         }
-        if (!(length >= kLeastSpacing && length <= kMostSpacing)) {
+        if (!(length >= kMinSpacing && length <= kMaxSpacing)) {
             return cannotRead(path, "its voxels along axis " + std::to_string(axis) + " are " + number(length) +
                                         " mm apart, which cannot be; mend its header");
         }
-        if (std::abs(affine.origin[axis]) > kMostSpacing) {
+        if (std::abs(affine.origin[axis]) > kMaxSpacing) {
             return cannotRead(path, "its origin is " + number(affine.origin[axis]) +
                                         " mm away, which cannot be; mend its header");
         }

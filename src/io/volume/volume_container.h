@@ -65,8 +65,32 @@ struct ContainedImage {
 [[nodiscard]] Result<std::uint64_t> frameOf(const std::filesystem::path& path, std::uint64_t frames,
                                             const VolumeReadOptions& options);
 
-/// The image's voxels: the next bytes of `reader`, turned to the machine's byte order.
+/// How the voxels lie behind their header, or in files of their own.
+struct VoxelFiles {
+    enum class Coding { Raw, Text, Gzip, ZlibOrGzip };
+
+    std::vector<std::string> names; ///< in order, beside the header, with equally many slices each; none: behind it
+    Coding coding = Coding::Raw;
+    std::int64_t skippedLines = 0; ///< of each file
+    std::int64_t skippedBytes = 0; ///< after those lines; -1: the voxels are the end of the file
+    bool swapped = false;          ///< not in the machine's byte order
+};
+
+/// The names that "slice%03d.raw 1 20 1" means (step 1 where it is left out, and what follows the step is not used).
+/// None where the text is no such pattern.
+[[nodiscard]] std::optional<std::vector<std::string>> numberedNames(std::string_view pattern);
+/// One name a line, up to the end of the file or an empty line.
+[[nodiscard]] Result<std::vector<std::string>> listedNames(ByteReader& reader);
+
+/// Gives the image its voxels; `attached` stands behind the header. Data behind the voxels is noted.
+[[nodiscard]] Result<void> readVoxels(const VolumeSource& source, ByteReader attached, const VoxelFiles& files,
+                                      ContainedImage& contained);
+
+/// The next bytes of `reader`, as many as the grid has voxels.
 [[nodiscard]] Result<void> takeVoxels(ByteReader& reader, StoredImage& image, bool swapped);
+
+/// Says that `bytes` of data follow the voxels, which may mean that these begin later.
+void noteMore(std::uint64_t bytes, std::vector<std::string>& notes);
 
 /// Where voxel (0,0,0) is, and the step from a voxel to the next along each axis: a length times a direction, which
 /// need not be a unit vector. mm, LPS.

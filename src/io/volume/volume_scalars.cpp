@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/base/text.h"
 #include "io/errors.h"
 #include "io/volume/stored_image.h"
 
@@ -101,33 +102,6 @@ Result<VolumeData> inFloats(VolumeData volume, const StoredImage& image, const s
     return volume;
 }
 
-/// Calls `act` with a value of the type that the voxels are stored in.
-template <class Act> auto withStored(StoredType type, Act&& act) {
-    switch (type) {
-    case StoredType::Int8:
-        return act(std::int8_t{});
-    case StoredType::UInt8:
-        return act(std::uint8_t{});
-    case StoredType::Int16:
-        return act(std::int16_t{});
-    case StoredType::UInt16:
-        return act(std::uint16_t{});
-    case StoredType::Int32:
-        return act(std::int32_t{});
-    case StoredType::UInt32:
-        return act(std::uint32_t{});
-    case StoredType::Int64:
-        return act(std::int64_t{});
-    case StoredType::UInt64:
-        return act(std::uint64_t{});
-    case StoredType::Float32:
-        return act(float{});
-    case StoredType::Float64:
-        break;
-    }
-    return act(double{});
-}
-
 const char* nameOf(StoredType type) {
     constexpr std::array<const char*, 10> kNames{"int8",   "uint8", "int16",  "uint16", "int32",
                                                  "uint32", "int64", "uint64", "float",  "double"};
@@ -168,6 +142,28 @@ Result<VolumeData> toScalars(StoredImage image, const std::filesystem::path& pat
             }
         }
         return inFloats<Stored>(std::move(volume), image, path);
+    });
+}
+
+Result<std::vector<std::int32_t>> toLabels(const StoredImage& image, const std::filesystem::path& path) {
+    return withStored(image.type, [&]<class Stored>(Stored) -> Result<std::vector<std::int32_t>> {
+        const Stored* const stored = as<Stored>(image.voxels);
+        std::vector<std::int32_t> labels(image.voxels.size() / sizeof(Stored));
+        for (std::size_t i = 0; i < labels.size(); ++i) {
+            bool isLabel = false;
+            if constexpr (std::is_floating_point_v<Stored>) {
+                const auto value = static_cast<double>(stored[i]);
+                isLabel = value == std::floor(value) && std::abs(value) <= std::numeric_limits<std::int32_t>::max();
+            } else {
+                isLabel = std::in_range<std::int32_t>(stored[i]);
+            }
+            if (!isLabel) {
+                return cannotRead(path, placeOf(image.grid, i) + " is " + number(static_cast<double>(stored[i])) +
+                                            ", a label is a whole number that an int32 holds");
+            }
+            labels[i] = static_cast<std::int32_t>(stored[i]); // NOLINT(bugprone-signed-char-misuse): a number
+        }
+        return labels;
     });
 }
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""voxtact: does this mesh, at this pose, touch what is visible of this volume? How much of it, where, and how near?
+"""voxtact: certified collision and distance queries between triangle meshes and CT/MR images.
 
     import voxtact as vx
 
@@ -7,25 +7,28 @@
     knife = vx.read_mesh("tool.stl")               # or (vertices, faces), or a mesh of trimesh, meshio, VTK
     scene = vx.Scene(head, opacity=[(40, 0), (80, 1)], threshold=0.1)
 
-    answer = scene.detect(knife, poses)            # (N,4,4), world_from_object
-    answer.hit, answer.count, answer.triangles, answer.contacts
-    scene.clearance(knife, poses).lo               # mm
-    scene.area(knife, poses).lo                    # mm^2
-    scene.motion(knife, poses).free_until          # on the way from pose to pose
-    scene.opacity = [(100, 0), (200, 1)]           # the next answer has seen it
-    scene.edit(ball=(x, y, z, r), value=-1000)     # so it has this
+    scene.touch(knife, poses).touches              # poses: (N,4,4), world_from_object
+    scene.touch(knife, poses, margin=2).touches    # is anything opaque within 2 mm?
+    found = scene.count(knife, poses)
+    found.count, found.triangles, found.contacts
+    scene.distance(knife, poses).lower             # mm
+    scene.area(knife, poses).lower                 # mm^2
+    scene.overlap(knife, poses).lower              # mm^3
+    scene.motion(knife, poses).toi_lower           # collision-free from each pose up to this parameter
+    scene.opacity = [(100, 0), (200, 1)]           # the next query uses it
+    scene.edit(ball=(x, y, z, r), value=-1000)     # and this
 
-A sample of the volume is opaque where its opacity reaches the threshold. The default answer is certified: *no* means no
-contact, *yes* comes with a point that proves it, and the rare pair that rounding leaves open is `possible`. No GPU is
-needed; ``device=True`` takes a Vulkan one.
+A sample of the volume is opaque where its opacity reaches the threshold. Answers are certified: no means no contact,
+yes is proven by a point, and a rare pair is `undecided` by rounding. No GPU is needed; ``device=True`` takes a Vulkan
+one.
 
 Arrays of voxels are indexed [z, y, x]; points, spacings and voxel numbers are x, y, z. The world is LPS (+x left, +y
 posterior, +z superior), in millimetres. Matrices are written row by row and multiply columns.
 
-Everything that is refused raises a `voxtact.Error`, which says what, why and what to do; a thing of another kind than
-the argument is, such as a text for a number, a TypeError.
+Refusals raise a `voxtact.Error`, which names the failure, the value and the fix; arguments of a wrong type, such as a
+text for a number, raise TypeError.
 """
-from ._answer import Answer, Area, Clearance, Counters
+from ._answer import Area, Count, Counters, Distance, Overlap, Touch
 from ._core import __version__
 from ._common import LPS_FROM_RAS
 from ._device import Device, DeviceInfo, MethodReport, devices
@@ -37,6 +40,7 @@ from ._errors import (
     InternalError,
     InvalidArgumentError,
     LimitExceededError,
+    MissingFileError,
     NotReadyError,
     OutOfMemoryError,
     UnsupportedError,
@@ -56,13 +60,13 @@ from ._volume import Volume, read_volume
 
 __all__ = [
     "LPS_FROM_RAS",
-    "Answer",
     "Area",
-    "Clearance",
+    "Count",
     "Counters",
     "Device",
     "DeviceInfo",
     "DeviceLostError",
+    "Distance",
     "Error",
     "FileError",
     "FormatError",
@@ -73,12 +77,15 @@ __all__ = [
     "Look",
     "Mesh",
     "MethodReport",
+    "MissingFileError",
     "Motion",
     "NotReadyError",
     "OutOfMemoryError",
+    "Overlap",
     "Plan",
     "Points",
     "Scene",
+    "Touch",
     "Tracked",
     "Tracker",
     "UnsupportedError",

@@ -1,36 +1,35 @@
 # SPDX-License-Identifier: MIT
-"""What scenes answer: numpy arrays, made when they are looked at."""
+"""Answers of scenes: numpy arrays, made when they are read."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, Optional, Union
+from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, Optional
 
 import numpy as np
 import numpy.typing as npt
 
-from . import _core as core
-from ._common import Kept, check_made, members_of, no_truth, restored
+from ._common import check_made, no_truth, restored
 from ._errors import NotReadyError
+from ._handles import METHODS, Labels
+from ._tables import UNDECIDED, YES, Tables
 
 if TYPE_CHECKING:
     from ._scene import Scene
 
-_OUTPUTS = ("triangles", "contacts", "bounds", "labels")
-_MEMBERS = ("hit", "possible", "count", "exact", "item", "pose", "method", "projection", "counters", "milliseconds",
-            "device_milliseconds", "contacts_found", *_OUTPUTS)
-_MEASURED_MEMBERS = ("lo", "hi", "end", "labels", "item", "pose", "milliseconds")
-_CLEARANCE_MEMBERS = (*_MEASURED_MEMBERS, "closest")
-_AREA_MEMBERS = (*_MEASURED_MEMBERS, "triangles", "by_triangle")
+_INSIDE = np.array(["none", "some", "all", "undecided"])
+_OUTPUTS = ("triangles", "contacts", "bounds", "labels")  # by the bits of vxt_output
 _ENDS = np.array(["closed", "beyond", "rounding", "budget"])
-_AREA_ENDS = np.array(["closed", "rounding", "budget"])
+_WITNESS = np.dtype([("triangle", np.int64), ("position", np.float64, 3), ("label", np.int32)], align=True)
+_CLOSEST = np.dtype([("triangle", np.int64), ("mesh", np.float64, 3), ("volume", np.float64, 3),
+                     ("per_translation", np.float64, 3), ("per_rotation", np.float64, 3)])
 
 
 class Counters(NamedTuple):
-    """What the passes of the projection "conservative" did on a device for all poses: docs/engine.md.
+    """Counters of the passes of the projection "certified" on a device, for all poses: docs/engine.md.
 
-    Of each peak (`most_…`): in the round that had most.
+    `most_…` are peaks of a round.
     """
 
-    #: of 64 triangles, once for each pair, that were looked at
+    #: of 64 triangles, tested, once for each pair
     clusters: int
     #: of these, may touch
     clusters_kept: int
@@ -38,9 +37,9 @@ class Counters(NamedTuple):
     runs_kept: int
     #: shares of triangles with more than 27 cells
     large_parts: int
-    #: of these triangles, looked at
+    #: of these triangles, tested
     bricks_seen: int
-    #: of all triangles in bricks that may be opaque, looked at
+    #: of all triangles in bricks that may be opaque, tested
     cells_seen: int
     #: of these, need a decision
     cells_listed: int
@@ -54,9 +53,9 @@ class Counters(NamedTuple):
     cells_open: int
     #: what a queue had no room for: shares of work groups
     left: int
-    #: looked at for these
+    #: tested for these
     bricks_left: int
-    #: looked at for these, and decided where they need it
+    #: tested for these, and decided where they need it
     cells_left: int
     #: dispatches of each pass
     rounds: int
@@ -80,298 +79,427 @@ class Counters(NamedTuple):
     most_looks_left: int
 
 
-class Answer:
-    """What `Scene.detect` found: a row for each pair of a mesh and a pose, in the order in which they were given."""
+class _Answer:
+    """The common part of all answers about pairs."""
 
-    __slots__ = ("_core", "_scene", "_later")
-    _core: Union[core.Answer, Kept]
+    __slots__ = ("_tables",)
+    _tables: Tables
+
+    @property
+    def item(self) -> npt.NDArray[np.uint32]:
+        """(N,): number of the mesh in the given list; 0 for a single mesh."""
+        return self._tables.item()
+
+    @property
+    def pose(self) -> npt.NDArray[np.uint32]:
+        """(N,): number of the pose among those of its mesh."""
+        return self._tables.pose()
+
+    @property
+    def seconds(self) -> float:
+        """Duration in the engine."""
+        return self._tables.milliseconds / 1000
+
+    def __len__(self) -> int:
+        return len(self._tables)
+
+
+class _Decided(_Answer):
+    """An answer with a certified yes or no for each pair."""
+
+    __slots__ = ()
+
+    @property
+    def touches(self) -> npt.NDArray[np.bool_]:
+        """(N,): the pair certainly touches."""
+        return self._tables.touch_is(YES)
+
+    @property
+    def undecided(self) -> npt.NDArray[np.bool_]:
+        """(N,): rounding leaves the pair undecided. Neither `touches` nor `undecided`: certainly no contact."""
+        return self._tables.touch_is(UNDECIDED)
+
+    @property
+    def device_seconds(self) -> float:
+        """Duration on the device; 0 on the host, and where the queue has no timestamps."""
+        return self._tables.total("gpu_milliseconds") / 1000
+
+    @property
+    def method(self) -> str:
+        """The counting method; "cpu" on the host."""
+        return METHODS[self._tables.method()]
+
+    def _verdicts(self) -> str:
+        undecided = int(self.undecided.sum())
+        more = f", {undecided} undecided" if undecided else ""
+        return f"{int(self.touches.sum())} of {len(self)} poses touch{more}"
+
+    def __bool__(self) -> NoReturn:
+        no_truth(self, ".touches, or .touches.any()")
+
+
+class Touch(_Decided):
+    """The answer of `Scene.touch`: a row for each pair of a mesh and a pose, in the given order."""
+
+    __slots__ = ("_labels", "_with_witness", "_witness")
+    _labels: Optional[Labels]
+    _with_witness: bool
+    _witness: Optional[npt.NDArray[np.void]]
+
+    def __init__(self, made_of: Tables, labels: Optional[Labels] = None, with_witness: bool = False) -> None:
+        check_made(made_of, Tables, "Scene.touch()")
+        self._tables = made_of
+        self._labels = labels
+        self._with_witness = with_witness
+        self._witness = None
+
+    @property
+    def witness(self) -> npt.NDArray[np.void]:
+        """(N,): a witness point of each yes, with `witness=True`.
+
+        `triangle`, its number in the mesh, -1 without a witness point; `position` (3), LPS, mm: opaque, and on the
+        triangle or within the margin of it, else NaN; `label` there, 0 without a label map.
+        """
+        if not self._with_witness:
+            raise NotReadyError("the answer has no witness points; ask with touch(witness=True)")
+        if self._witness is None:
+            rows = self._tables.rows("pairs")
+            found, some = np.zeros(len(rows), _WITNESS), rows["witness"] == 1
+            found["triangle"] = np.where(some, rows["triangle"].astype(np.int64), -1)
+            found["position"] = np.where(some[:, None], rows["point"], np.nan)
+            if self._labels is not None:
+                found["label"][some] = self._labels.at(rows["point"][some])
+            self._witness = found
+        return self._witness
+
+    def plot(self, ax: Any = None) -> Any:
+        """Plots the verdicts over the poses with matplotlib; returns the axes."""
+        from ._plot import plot_touch
+
+        return plot_touch(self, ax)
+
+    def __repr__(self) -> str:
+        return f"<voxtact.Touch: {self._verdicts()}; {self.method}>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return restored, (Touch, {"_tables": self._tables, "_labels": None, "_with_witness": self._with_witness,
+                                  "_witness": self.witness if self._with_witness else None})
+
+
+class Count(_Decided):
+    """The answer of `Scene.count`: a row for each pair of a mesh and a pose, in the given order."""
+
+    __slots__ = ("_scene", "_later")
     _scene: Optional[Scene]
-    _later: Optional[dict[str, core.Answer]]
+    _later: Optional[dict[str, Tables]]
 
-    def __init__(self, made_of: core.Answer, scene: Optional[Scene]) -> None:
-        check_made(made_of, core.Answer, "Scene.detect()")
-        self._core = made_of
+    def __init__(self, made_of: Tables, scene: Optional[Scene]) -> None:
+        check_made(made_of, Tables, "Scene.count()")
+        self._tables = made_of
         self._scene = scene
         self._later = None
 
     @property
-    def hit(self) -> npt.NDArray[np.bool_]:
-        """(N,): it certainly touches."""
-        return self._core.hit
-
-    @property
-    def possible(self) -> npt.NDArray[np.bool_]:
-        """(N,): nothing certain, but rounding leaves it open; projection "conservative" alone."""
-        return self._core.possible
-
-    @property
     def count(self) -> npt.NDArray[np.uint64]:
-        """(N,): how many fragments of the mesh are in what is opaque; 0 or 1 where yes or no was asked."""
-        return self._core.count
+        """(N,): passing fragments of the mesh; 0 or 1 with `stop_at_first`."""
+        return self._tables.count()
 
     @property
-    def exact(self) -> npt.NDArray[np.bool_]:
-        """(N,): the count is the count; elsewhere there are at least so many."""
-        return self._core.exact
-
-    @property
-    def device_seconds(self) -> float:
-        """What the device was at work for it; 0 on the host, and where its queue has no timestamps."""
-        return self._core.device_milliseconds / 1000
-
-    @property
-    def item(self) -> npt.NDArray[np.uint32]:
-        """(N,): the number of the mesh in the list that was given; 0 for a single one."""
-        return self._core.item
-
-    @property
-    def pose(self) -> npt.NDArray[np.uint32]:
-        """(N,): the number of the pose among those of its mesh."""
-        return self._core.pose
+    def count_exact(self) -> npt.NDArray[np.bool_]:
+        """(N,): the count is exact; elsewhere it is a lower bound."""
+        found: npt.NDArray[np.bool_] = self._tables.rows("pairs")["exactness"] == 0
+        return found
 
     @property
     def triangles(self) -> npt.NDArray[np.void]:
         """The touched triangles: `pair`, `triangle`, `count`; by pair, then by triangle."""
-        return self._output("triangles").triangles
+        return self._output("triangles").rows("triangles")
 
     @property
     def contacts(self) -> npt.NDArray[np.void]:
-        """A row for each fragment that touches, by pair, triangle and place.
+        """A row for each passing fragment, by pair, triangle and place.
 
-        `pair`; `triangle`; `position` (3), LPS, mm, on the triangle; `normal` (3), unit, out of what is opaque, 0 where
-        there is none; `depth`, mm along the normal to where the opacity ends; `value` and `opacity` of the image there;
-        `label`, 0 without a label map.
+        `pair`; `triangle`; `position` (3), LPS, mm, on the triangle; `normal` (3), unit vector out of the opaque
+        region, 0 where there is none; `depth`, mm along the normal to the end of the opaque region; `value` and
+        `opacity` of the image there; `label`, 0 without a label map.
         """
-        return self._output("contacts").contacts
+        tables = self._output("contacts")
+        return tables.rows("contacts")[:tables.max_contacts]
 
     @property
     def contacts_found(self) -> int:
-        """How many there are; more than rows in `contacts` where that was cut at `most_contacts`."""
-        return self._output("contacts").contacts_found
+        """The number of contacts; more than the rows of `contacts` where `max_contacts` cut the list."""
+        return int(self._output("contacts").total("contacts_found"))
 
     @property
     def bounds(self) -> npt.NDArray[np.float64]:
-        """(N,2,3): the least and the greatest corner of each pair's contacts, LPS, mm; NaN where there is none."""
-        return self._output("bounds").bounds
+        """(N,2,3): the minimum and the maximum corner of each pair's contacts, LPS, mm; NaN without contacts."""
+        rows = self._output("bounds").rows("bounds")
+        found = np.stack([rows["lower"], rows["upper"]], axis=1)
+        found[(rows["lower"] > rows["upper"]).any(axis=1)] = np.nan
+        return np.asarray(found)
 
     @property
     def labels(self) -> npt.NDArray[np.void]:
         """Fragments by label: `pair`, `label`, `count`. The scene needs labels."""
-        return self._output("labels").labels
-
-    @property
-    def method(self) -> str:
-        """What counted."""
-        return self._core.method
+        return self._output("labels").rows("labels")
 
     @property
     def projection(self) -> str:
-        """What gave the fragments."""
-        return self._core.projection
+        """The projection that made the fragments."""
+        return self._tables.projection
 
     @property
     def counters(self) -> Counters:
-        """What a device did, of ``detect(counters=True)``; others raise NotReadyError."""
-        numbers = self._core.counters
+        """The work of a device, with ``count(counters=True)``; others raise NotReadyError."""
+        numbers = self._tables.counters(Counters._fields)
         if numbers is None:
-            raise NotReadyError("nothing was counted: detect(counters=True) asks for it, of a scene on a device")
+            raise NotReadyError("the answer has no counters; ask with count(counters=True), on a device")
         return Counters(*numbers)
 
-    @property
-    def seconds(self) -> float:
-        """What the engine took."""
-        return self._core.milliseconds / 1000
-
-    def _output(self, name: str) -> Union[core.Answer, Kept]:
-        """The answer that has an output; asks again where it was not asked for."""
-        if self._core.outputs[_OUTPUTS.index(name)]:
-            return self._core
+    def _output(self, name: str) -> Tables:
+        """Returns the tables that have an output; asks again where they lack it."""
+        if self._tables.outputs >> _OUTPUTS.index(name) & 1:
+            return self._tables
         if self._later is None:
             self._later = {}
         if name not in self._later:
-            core = self._core
-            if isinstance(core, Kept) and core.of_scene:
-                raise NotReadyError(f"an answer that was pickled or copied knows no scene: detect({name}=True) asks for its "
-                                    f"{name} in the same go, and looking at them before keeps them, too")
-            if self._scene is None or isinstance(core, Kept):
-                raise NotReadyError(f"answers of within() and around() have no {name}: ask detect(), which is about touching")
-            again = self._scene._core.again(core, name)
+            if self._scene is None:
+                raise NotReadyError(f"a pickled or copied answer has no scene: ask for its {name} at once by "
+                                    f"count({name}=True), or read them before you copy the answer")
+            again = self._scene._core.again(self._tables.again, name)
             if again is None:
-                raise NotReadyError(f"the scene has changed since this answer: detect({name}=True) asks for its {name} "
-                                    "in the same go")
+                raise NotReadyError(f"the scene has changed since this answer: ask for its {name} at once by "
+                                    f"count({name}=True)")
             self._later[name] = again
         return self._later[name]
 
     def plot(self, ax: Any = None) -> Any:
-        """The counts over the poses, with matplotlib; the axes. What touches is red, what is possible is hollow."""
-        from ._plot import plot_answer
+        """Plots the counts over the poses with matplotlib; returns the axes. Red: touches; hollow: undecided."""
+        from ._plot import plot_count
 
-        return plot_answer(self, ax)
-
-    def __len__(self) -> int:
-        return len(self._core)
+        return plot_count(self, ax)
 
     def __repr__(self) -> str:
-        hits, possible = int(self.hit.sum()), int(self.possible.sum())
-        more = f", {possible} possibly" if possible else ""
-        return f"<voxtact.Answer: {hits} of {len(self)} poses touch{more}; {self.projection}, {self.method}>"
-
-    def __bool__(self) -> NoReturn:
-        no_truth(self, ".hit, or .hit.any()")
+        return f"<voxtact.Count: {self._verdicts()}; {self.projection}, {self.method}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        members = members_of(self._core, _MEMBERS)
-        later = self._later or {}
-        for name, answer in later.items():
-            members.update(members_of(answer, (name, "contacts_found") if name == "contacts" else (name,)))
-        members["of_scene"] = self._core.of_scene if isinstance(self._core, Kept) else self._scene is not None
-        members["outputs"] = tuple(known or name in later for known, name in zip(self._core.outputs, _OUTPUTS))
-        return restored, (Answer, {"_core": Kept(len(self), members), "_scene": None, "_later": None})
+        self._tables.counters(Counters._fields)  # which are kept then
+        return restored, (Count, {"_tables": self._tables, "_scene": None, "_later": dict(self._later or {})})
 
 
-class _Measured:
-    """What clearances and areas have in common."""
+class _Measured(_Answer):
+    """Bounds for each pair, or for each pair and label."""
 
-    __slots__ = ("_core",)
-    _core: Union[core.Clearances, core.Areas, Kept]
+    __slots__ = ("_labels",)
+    _labels: Optional[list[int]]
+
+    def _column(self, name: str) -> npt.NDArray[Any]:
+        if self._labels is None:
+            return np.asarray(self._tables.rows("pairs")[name])
+        return np.asarray(self._tables.rows("labels")[name].reshape(len(self), len(self._labels)))
 
     @property
     def labels(self) -> npt.NDArray[np.int32]:
-        """(L,): of the columns; empty where it is not about labels."""
-        return self._core.labels
+        """(L,): the labels of the columns; empty without labels."""
+        return np.array(self._labels or [], np.int32)
 
-    @property
-    def item(self) -> npt.NDArray[np.uint32]:
-        """(N,): the number of the mesh in the list that was given; 0 for a single one."""
-        return self._core.item
-
-    @property
-    def pose(self) -> npt.NDArray[np.uint32]:
-        """(N,): the number of the pose among those of its mesh."""
-        return self._core.pose
-
-    @property
-    def seconds(self) -> float:
-        """What the engine took."""
-        return self._core.milliseconds / 1000
-
-    def __len__(self) -> int:
-        return len(self._core)
+    def _text(self, to: str, extreme: str, unit: str) -> str:
+        name = f"<voxtact.{type(self).__name__} of {len(self) or 'no'} poses"
+        if not len(self):
+            return name + ">"
+        lower, upper = self._column("lower"), self._column("upper")
+        name += f" {to} {len(self.labels)} labels" if lower.ndim == 2 else ""
+        if not lower.size:
+            return name + ">"
+        of = np.min if extreme == "min" else np.max
+        return f"{name}: {extreme} {of(lower):.4g} to {of(upper):.4g} {unit}>"
 
     def __bool__(self) -> NoReturn:
-        no_truth(self, ".lo and .hi")
+        no_truth(self, ".lower and .upper")
 
 
-class Clearance(_Measured):
-    """What `Scene.clearance` found: a row for each pair, in order; to labels, a column for each."""
+class Distance(_Measured):
+    """The answer of `Scene.distance`: a row for each pair, in order; with labels a column for each."""
 
     __slots__ = ()
-    _core: Union[core.Clearances, Kept]
 
-    def __init__(self, made_of: core.Clearances) -> None:
-        check_made(made_of, core.Clearances, "Scene.clearance()")
-        self._core = made_of
-
-    @property
-    def lo(self) -> npt.NDArray[np.float64]:
-        """(N,) or (N,L): no point of the surface is nearer to what is opaque, mm. 0 where it touches."""
-        return self._core.lo
+    def __init__(self, made_of: Tables, labels: Optional[list[int]] = None) -> None:
+        check_made(made_of, Tables, "Scene.distance()")
+        self._tables = made_of
+        self._labels = labels
 
     @property
-    def hi(self) -> npt.NDArray[np.float64]:
-        """(N,) or (N,L): some point of the surface is as near, mm. Infinite beyond the maximum, or where nothing is."""
-        return self._core.hi
+    def lower(self) -> npt.NDArray[np.float64]:
+        """(N,) or (N,L): lower bound, mm; 0 where the mesh touches."""
+        return self._column("lower")
+
+    @property
+    def upper(self) -> npt.NDArray[np.float64]:
+        """(N,) or (N,L): upper bound, mm; infinite beyond `max`, and where nothing is opaque."""
+        return self._column("upper")
 
     @property
     def end(self) -> npt.NDArray[np.str_]:
-        """Why the bounds are no nearer to each other.
+        """Why the search ended.
 
-        "closed" (within the tolerance), "beyond" (the maximum), "rounding" (which decides what is left) or "budget"
-        (`most_steps`).
+        "closed" (upper - lower is within the tolerance), "beyond" (lower reached `max`), "rounding" (rounding decides
+        the rest) or "budget" (`max_steps`).
         """
-        names: npt.NDArray[np.str_] = _ENDS[self._core.end]
+        names: npt.NDArray[np.str_] = _ENDS[self._column("end")]
         return names
 
     @property
     def closest(self) -> npt.NDArray[np.void]:
-        """(N,): two points as far apart as `hi`, by a device no farther, LPS, mm: `triangle` (-1: there is none, the rest
-        is NaN), `mesh` (3) on it and `volume` (3), opaque; and how the distance changes with the pose:
-        `per_translation` (3), mm per mm along the world's axes, and `per_rotation` (3), mm per radian about the parallels
-        of these through the object's origin.
+        """(N,): two witness points of `upper`, LPS, mm, and the gradient of their distance by the pose.
+
+        `triangle`, -1 without witness points, whose rest is NaN; `mesh` (3) on the triangle; `volume` (3), opaque;
+        `per_translation` (3), mm per mm along the world's axes; `per_rotation` (3), mm per radian about axes through
+        the object's origin.
         """
-        if self.lo.ndim == 2:
-            raise NotReadyError("clearances to labels have no closest points")
-        return self._core.closest
+        if self._column("lower").ndim == 2:
+            raise NotReadyError("distances to labels have no closest points")
+        rows = self._tables.rows("pairs")
+        found = np.empty(len(rows), _CLOSEST)
+        none = rows["witness"] == 0
+        found["triangle"] = np.where(none, -1, rows["triangle"].astype(np.int64))
+        for name, column in (("mesh", "on_mesh"), ("volume", "in_volume"), ("per_translation", "per_translation"),
+                             ("per_rotation", "per_rotation")):
+            found[name] = np.where(none[:, None], np.nan, rows[column])
+        return found
 
     def plot(self, ax: Any = None) -> Any:
-        """The bounds over the poses, mm, with matplotlib; the axes."""
-        from ._plot import plot_clearance
+        """Plots the bounds over the poses, mm, with matplotlib; returns the axes."""
+        from ._plot import plot_distance
 
-        return plot_clearance(self, ax)
+        return plot_distance(self, ax)
 
     def __repr__(self) -> str:
-        if not len(self):
-            return "<voxtact.Clearance of no poses>"
-        to = f" to {len(self.labels)} labels" if self.lo.ndim == 2 else ""
-        if not self.lo.size:
-            return f"<voxtact.Clearance of {len(self)} poses{to}>"
-        return f"<voxtact.Clearance of {len(self)} poses{to}: the least is {self.lo.min():.4g} to {self.hi.min():.4g} mm>"
+        return self._text("to", "min", "mm")
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return restored, (Clearance, {"_core": Kept(len(self), members_of(self._core, _CLEARANCE_MEMBERS))})
+        return restored, (Distance, {"_tables": self._tables, "_labels": self._labels})
 
 
 class Area(_Measured):
-    """What `Scene.area` found: a row for each pair, in order; in labels, a column for each."""
+    """The answer of `Scene.area`: a row for each pair, in order; with labels a column for each."""
 
-    __slots__ = ()
-    _core: Union[core.Areas, Kept]
+    __slots__ = ("_by_triangle",)
+    _by_triangle: bool
 
-    def __init__(self, made_of: core.Areas) -> None:
-        check_made(made_of, core.Areas, "Scene.area()")
-        self._core = made_of
-
-    @property
-    def lo(self) -> npt.NDArray[np.float64]:
-        """(N,) or (N,L): so much of the surface is certainly opaque, mm^2."""
-        return self._core.lo
+    def __init__(self, made_of: Tables, labels: Optional[list[int]] = None, by_triangle: bool = False) -> None:
+        check_made(made_of, Tables, "Scene.area()")
+        self._tables = made_of
+        self._labels = labels
+        self._by_triangle = by_triangle
 
     @property
-    def hi(self) -> npt.NDArray[np.float64]:
-        """(N,) or (N,L): no more of the surface is opaque, mm^2."""
-        return self._core.hi
+    def lower(self) -> npt.NDArray[np.float64]:
+        """(N,) or (N,L): lower bound of the opaque area of the surface, mm^2."""
+        return self._column("lower")
+
+    @property
+    def upper(self) -> npt.NDArray[np.float64]:
+        """(N,) or (N,L): upper bound, mm^2."""
+        return self._column("upper")
 
     @property
     def end(self) -> npt.NDArray[np.str_]:
-        """Why the bounds are no nearer to each other.
-
-        "closed" (within the tolerance), "rounding" (which decides what is left) or "budget" (`most_steps`).
+        """Why the search ended: "closed" (upper - lower is within the tolerance), "rounding" or "budget" (`max_steps`).
         """
-        names: npt.NDArray[np.str_] = _AREA_ENDS[self._core.end]
+        names: npt.NDArray[np.str_] = _ENDS[self._column("end")]
         return names
 
     @property
     def triangles(self) -> npt.NDArray[np.void]:
-        """(T,): those that may have an area, by pair, then by number: `pair`, `triangle`, its own area `whole`, and `lo`
-        and `hi`, mm^2. Of `triangles=True` only.
+        """(T,): triangles that may have an area, by pair, then by number, with `triangles=True`.
+
+        `pair`, `triangle`, `whole`, the triangle's own area, and its bounds `lower` and `upper`, mm^2.
         """
-        if not self._core.by_triangle:
-            raise NotReadyError("areas of triangles were not asked for; measure with triangles=True")
-        return self._core.triangles
+        if not self._by_triangle:
+            raise NotReadyError("the answer has no areas of triangles; ask with area(triangles=True)")
+        return self._tables.rows("triangles")
 
     def plot(self, ax: Any = None) -> Any:
-        """The bounds over the poses, mm^2, with matplotlib; the axes."""
+        """Plots the bounds over the poses, mm^2, with matplotlib; returns the axes."""
         from ._plot import plot_area
 
         return plot_area(self, ax)
 
     def __repr__(self) -> str:
-        if not len(self):
-            return "<voxtact.Area of no poses>"
-        to = f" in {len(self.labels)} labels" if self.lo.ndim == 2 else ""
-        if not self.lo.size:
-            return f"<voxtact.Area of {len(self)} poses{to}>"
-        return f"<voxtact.Area of {len(self)} poses{to}: the largest is {self.lo.max():.4g} to {self.hi.max():.4g} mm^2>"
+        return self._text("in", "max", "mm^2")
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return restored, (Area, {"_core": Kept(len(self), members_of(self._core, _AREA_MEMBERS))})
+        return restored, (Area, {"_tables": self._tables, "_labels": self._labels, "_by_triangle": self._by_triangle})
+
+
+class Overlap(_Measured):
+    """The answer of `Scene.overlap`: a row for each pair, in order; with bands or labels a column for each."""
+
+    __slots__ = ("_bands",)
+    _bands: Optional[list[float]]
+
+    def __init__(self, made_of: Tables, labels: Optional[list[int]] = None, bands: Optional[list[float]] = None) -> None:
+        check_made(made_of, Tables, "Scene.overlap()")
+        self._tables = made_of
+        self._labels = labels
+        self._bands = bands
+
+    def _column(self, name: str) -> npt.NDArray[Any]:
+        if self._bands is None:
+            return super()._column(name)
+        return np.asarray(self._tables.rows("bands")[name].reshape(len(self), len(self._bands) + 1))
+
+    @property
+    def lower(self) -> npt.NDArray[np.float64]:
+        """(N,), (N,B) or (N,L): lower bound of the opaque volume inside the mesh, mm^3; of a band, opaque or not."""
+        return self._column("lower")
+
+    @property
+    def upper(self) -> npt.NDArray[np.float64]:
+        """(N,), (N,B) or (N,L): upper bound, mm^3."""
+        return self._column("upper")
+
+    @property
+    def solid_lower(self) -> npt.NDArray[np.float64]:
+        """(N,): lower bound of the volume of the mesh, mm^3."""
+        return np.asarray(self._tables.rows("pairs")["solid_lower"])
+
+    @property
+    def solid_upper(self) -> npt.NDArray[np.float64]:
+        """(N,): upper bound of the volume of the mesh, mm^3."""
+        return np.asarray(self._tables.rows("pairs")["solid_upper"])
+
+    @property
+    def inside(self) -> npt.NDArray[np.str_]:
+        """(N,) or (N,L): how much of the opaque region is inside: "none", "some", "all" or "undecided"."""
+        table = super()._column("inside")
+        names: npt.NDArray[np.str_] = _INSIDE[table]
+        return names
+
+    @property
+    def end(self) -> npt.NDArray[np.str_]:
+        """Why the search ended: "closed" (upper - lower is within the tolerance), "rounding" or "budget" (`max_steps`)."""
+        names: npt.NDArray[np.str_] = _ENDS[self._column("end")]
+        return names
+
+    @property
+    def bands(self) -> npt.NDArray[np.float64]:
+        """(B,2): the limits of each band: values from the first to below the second; empty without bands."""
+        if self._bands is None:
+            return np.zeros((0, 2))
+        return np.stack([[-np.inf, *self._bands], [*self._bands, np.inf]], axis=1)
+
+    def plot(self, ax: Any = None) -> Any:
+        """Plots the bounds over the poses, mm^3, or over the bands, with matplotlib; returns the axes."""
+        from ._plot import plot_overlap
+
+        return plot_overlap(self, ax)
+
+    def __repr__(self) -> str:
+        if self._bands is None:
+            return self._text("in", "max", "mm^3")
+        return f"<voxtact.Overlap of {len(self) or 'no'} poses in {len(self._bands) + 1} bands>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return restored, (Overlap, {"_tables": self._tables, "_labels": self._labels, "_bands": self._bands})

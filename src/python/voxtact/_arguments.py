@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any, Literal, Optional, Union
@@ -14,8 +15,9 @@ from ._common import numbers
 from ._errors import InvalidArgumentError
 from ._files import read_opacity
 from ._mesh import Mesh
+from ._volume import Volume
 
-Projection = Literal["conservative", "view", "two-view", "dominant-axis"]
+Projection = Literal["certified", "view", "two-view", "dominant-axis"]
 Method = Literal["auto", "query", "query-any", "atomic", "subgroup", "compute", "cpu"]
 #: Points (value, opacity), ascending; or text, "40:0,80:1"; or a file. None: from 0 to 1 over the domain.
 Opacity = Union[None, npt.ArrayLike, str, "os.PathLike[str]"]
@@ -27,7 +29,7 @@ Progress = Union[None, Callable[[int, int], object], Any]
 
 @contextmanager
 def told(progress: Progress, pairs: int) -> Iterator[Optional[Callable[[int, int], object]]]:
-    """What the compiled part calls as callback(done, all)."""
+    """What the library calls as callback(done, all)."""
     if progress is None:
         yield None
         return
@@ -61,11 +63,16 @@ def _poses(given: Any) -> npt.NDArray[np.float64]:
     return np.zeros((0, 4, 4)) if isinstance(given, (list, tuple)) and len(given) == 0 else numbers(given, "poses")
 
 
-def asked(mesh: Any, poses: Any) -> tuple[Any, Any]:
-    """What the compiled part takes: a mesh and its poses, or a list of such pairs."""
+def asked(mesh: Any, poses: Any, volume: Volume) -> tuple[Any, Any]:
+    """What the library takes: a mesh and its poses, or a list of such pairs. Warned of once for each volume: spaces
+    that nobody has said, and that differ."""
     if isinstance(mesh, Mesh):
         if poses is None:
             raise TypeError("poses are missing: (N,4,4) or (4,4), world_from_object, row by row, mm, LPS")
+        if volume._assumed and mesh._assumed:
+            volume._assumed = False
+            warnings.warn("the volume's affine is taken to lead to RAS, as nibabel's does, and the mesh's vertices to be in LPS: say "
+                          'space="ras" or space="lps" in read_volume() and read_mesh()', stacklevel=3)
         return mesh._core, _poses(poses)
     if poses is None and isinstance(mesh, Sequence) and not isinstance(mesh, (str, bytes)):
         pairs: list[tuple[Any, Any]] = []

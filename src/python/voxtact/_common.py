@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import operator
 import os
-from collections.abc import Iterable
 from typing import Any, Literal, NoReturn, Union
 
 import numpy as np
@@ -27,7 +26,7 @@ BUILTIN = "builtin:"
 
 
 def encoded(path: Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]) -> bytes:
-    """A path for the compiled part, where the end of a text is no zero."""
+    """A path for the library, where the end of a text is no zero."""
     try:
         name = os.fsencode(path)
     except UnicodeEncodeError:
@@ -38,7 +37,7 @@ def encoded(path: Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]) -
 
 
 def encoded_text(given: str, what: str) -> bytes:
-    """A text for the compiled part, from which bytes that are not UTF-8 come back as they were."""
+    """A text for the library, from which bytes that are not UTF-8 come back as they were."""
     if not isinstance(given, str):
         raise TypeError(f"{what} is a {type(given).__name__}; a text is needed")
     try:
@@ -58,33 +57,6 @@ def no_truth(of: object, ask: str) -> NoReturn:
     """What `__bool__` of each answer does: an object that has rows would be true, whatever is in them."""
     raise TypeError(f"a voxtact.{type(of).__name__} is neither true nor false: it has a row for each of what was asked; "
                     f"look at {ask}")
-
-
-class Kept:
-    """What an answer of the compiled part holds, once it has been pickled or copied: the same members."""
-
-    __slots__ = ("_length", "_members")
-
-    def __init__(self, length: int, members: dict[str, Any]) -> None:
-        self._length = length
-        self._members = members
-
-    def __getattr__(self, name: str) -> Any:
-        try:
-            return object.__getattribute__(self, "_members")[name]
-        except KeyError:
-            raise AttributeError(name) from None
-
-    def __len__(self) -> int:
-        return self._length
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return Kept, (self._length, self._members)
-
-
-def members_of(made: Any, names: Iterable[str]) -> dict[str, Any]:
-    """What there is to keep of an answer of the compiled part."""
-    return {name: getattr(made, name) for name in names}
 
 
 def restored(kind: type, slots: dict[str, Any]) -> Any:
@@ -177,6 +149,9 @@ def whole_number(given: Any, what: str, least: int = 0, most: int = 2**32 - 1) -
     return found
 
 
-def check_space(space: str, argument: str) -> None:
-    if space not in ("ras", "lps"):
+def checked_space(space: Any, argument: str) -> Space:
+    """In capitals, too."""
+    lower = space.lower() if isinstance(space, str) else space
+    if lower not in ("ras", "lps"):
         raise InvalidArgumentError(f"{argument}={space!r} is neither 'ras' nor 'lps'")
+    return "ras" if lower == "ras" else "lps"

@@ -24,7 +24,7 @@ class DeviceInfo(NamedTuple):
 
 def devices() -> list[DeviceInfo]:
     """The Vulkan devices of this machine. UnsupportedError where there is none, with what to install."""
-    return [DeviceInfo(*facts) for facts in core.Device.list()]
+    return [DeviceInfo(*facts) for facts in core.Device.every()]
 
 
 class MethodReport(NamedTuple):
@@ -36,8 +36,6 @@ class MethodReport(NamedTuple):
     trusted: bool
     #: what was counted and compared, or what is wrong
     text: str
-    #: of `Device.measure_methods`: wall clock, the median; 0 where it was not measured
-    pairs_per_second: float
 
 
 class Device:
@@ -46,13 +44,11 @@ class Device:
     which: its number in `devices()`, a part of its name, or nothing for the best one.
     """
 
-    __slots__ = ("_core", "_fastest")
+    __slots__ = ("_core",)
     _core: core.Device
-    _fastest: Optional[str]
 
     def __init__(self, which: Union[None, int, str] = None) -> None:
         self._core = core.Device.open(encoded_text("" if which is None else str(which), "device"))
-        self._fastest = None
 
     @property
     def info(self) -> DeviceInfo:
@@ -66,7 +62,7 @@ class Device:
 
     @property
     def default_method(self) -> str:
-        """What `Scene.detect` counts with, where it is not said, in the projections that are not certified."""
+        """The default counting method of `Scene.count`, for projections other than "certified"."""
         return self._core.default_method
 
     def self_test(self) -> dict[str, MethodReport]:
@@ -74,22 +70,6 @@ class Device:
         bit for bit: whether this driver's answers can be trusted. Some ten milliseconds, and the making of pipelines.
         """
         return {report[0]: MethodReport(*report[1:]) for report in self._core.self_test()}
-
-    def measure_methods(self) -> dict[str, MethodReport]:
-        """The self-test, and then how fast each trusted method is: a scalpel at 32 poses in a head of 64^3 voxels.
-
-        For choosing `method` of `Scene.detect`: "query-any" says no more than yes or no. About 0.2 s for each, and the
-        making of pipelines.
-        """
-        return {report[0]: MethodReport(*report[1:]) for report in self._core.measure_methods()}
-
-    def fastest_method(self) -> str:
-        """The fastest trusted method that counts, as `measure_methods` finds it when this is first asked."""
-        if self._fastest is None:
-            speeds = {name: report.pairs_per_second for name, report in self.measure_methods().items()
-                      if report.trusted and name != "query-any"}
-            self._fastest = max(speeds, key=lambda name: speeds[name]) if speeds else self.default_method
-        return self._fastest
 
     def __repr__(self) -> str:
         info = self.info

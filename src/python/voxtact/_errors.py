@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""What voxtact raises. Every text is one line: what, which argument or file, why, and what to do."""
+"""Exceptions of voxtact. A text is one line: the failure, the argument or file, and the fix."""
 from __future__ import annotations
 
+import errno
+import os
 import re
+from typing import Optional
 
 _SURROGATES = re.compile("[\ud800-\udfff]")
 
@@ -17,7 +20,8 @@ class Error(Exception):
 
     def __str__(self) -> str:
         # What an argument looks like may have lines, and what a file has may be no UTF-8; this can be printed anywhere.
-        return _SURROGATES.sub("\ufffd", " ".join(super().__str__().split("\n")))
+        text = str(self.args[0]) if self.args else ""
+        return _SURROGATES.sub("\ufffd", " ".join(text.split("\n")))
 
 
 class InvalidArgumentError(Error, ValueError):
@@ -62,6 +66,10 @@ class FileError(Error, OSError):
     code = "file"
 
 
+class MissingFileError(FileError, FileNotFoundError):
+    """A file, or a folder to write into, that is not there: with `errno` and `filename`."""
+
+
 class FormatError(Error, ValueError):
     """A file that can be read, but what it holds cannot be used."""
 
@@ -69,7 +77,7 @@ class FormatError(Error, ValueError):
 
 
 class NotReadyError(Error):
-    """What is asked for does not exist, or no longer: a closed scene, an output that was not asked for."""
+    """The object or output does not exist, or no longer: a closed scene, an output that was not requested."""
 
     code = "not-ready"
 
@@ -96,7 +104,19 @@ _CLASSES: dict[int, type[Error]] = {
 
 
 def exception(code: int, text: str, vk_result: int) -> Error:
-    """The exception of an error of the compiled part, which calls this."""
-    made = _CLASSES.get(code, Error)(text)
+    """The exception of an error of the library."""
+    made = _missing(text) if code == 7 else None
+    made = made or _CLASSES.get(code, Error)(text)
     made.vk_result = vk_result
+    return made
+
+
+def _missing(text: str) -> Optional[Error]:
+    """Of a text about a file, where that is not there."""
+    about = re.match("cannot (read|write) '(.*?)': ", text, re.DOTALL)
+    if about is None or os.path.lexists(about[2] if about[1] == "read" else os.path.dirname(about[2]) or "."):
+        return None
+    made = MissingFileError(text)
+    made.errno = errno.ENOENT
+    made.filename = about[2]
     return made

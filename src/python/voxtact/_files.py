@@ -8,26 +8,34 @@ from typing import NamedTuple, Union
 import numpy as np
 import numpy.typing as npt
 
-from . import _core as core
 from ._common import encoded, encoded_text
 from ._errors import InvalidArgumentError
+from ._library import NULL, check, ffi, lib, made, matrices_of, matrix_of, pointer, text_of
+from ._tables import points_of
+from ._turns import guarded
 
 
 def read_poses(path: Union[str, os.PathLike[str]]) -> npt.NDArray[np.float64]:
     """(N,4,4) from the program's files: one matrix a line, 16 numbers row by row; `#` comments."""
-    return core.read_poses(encoded(path))
+    count = ffi.new("size_t*")
+    poses = guarded(made, "poses", lib.vxt_read_poses, encoded(path))
+    return matrices_of(lib.vxt_poses_get(poses, count), count[0])
 
 
 def read_camera(path: Union[str, os.PathLike[str]]) -> npt.NDArray[np.float64]:
     """(4,4), clip_from_world, from one of the program's files."""
-    return core.read_camera(encoded(path))
+    found = ffi.new("double[16]")
+    check(lib.vxt_read_camera(encoded(path), found))
+    return matrix_of(found)
 
 
 def read_opacity(source: Union[str, os.PathLike[str]]) -> npt.NDArray[np.float64]:
     """(N,2), value and opacity: from a file (lines `value opacity`, or JSON), or from text like "40:0,80:1"."""
     if isinstance(source, str) and ":" in source and not os.path.exists(source):
-        return core.parse_opacity(encoded_text(source, "opacity"))
-    return core.read_opacity(encoded(source))
+        points = made("control_points", lib.vxt_parse_opacity, encoded_text(source, "opacity"))
+    else:
+        points = made("control_points", lib.vxt_read_transfer_function, encoded(source))
+    return points_of(lib.vxt_control_points_get, points, 2)
 
 
 class Points(NamedTuple):
@@ -40,8 +48,14 @@ class Points(NamedTuple):
 
 
 def read_points(path: Union[str, os.PathLike[str]]) -> Points:
-    """Points from a file: lines `x y z` or `x y z name`; `#` comments."""
-    return Points(*core.read_points(encoded(path)))
+    """Points from a file, mm in LPS: lines `x y z` or `x y z name`, or 3D Slicer's .fcsv or .mrk.json."""
+    points, position = guarded(made, "points", lib.vxt_read_points, encoded(path)), ffi.new("double[3]")
+    positions: list[list[float]] = []
+    names: list[str] = []
+    while name := lib.vxt_points_get(points, len(names), position, NULL):
+        names.append(text_of(name))
+        positions.append(list(position))
+    return Points(np.array(positions, np.float64).reshape(-1, 3), tuple(names))
 
 
 def write_png(path: Union[str, os.PathLike[str]], picture: npt.NDArray[np.uint8]) -> None:
@@ -49,4 +63,5 @@ def write_png(path: Union[str, os.PathLike[str]], picture: npt.NDArray[np.uint8]
     pixels = np.ascontiguousarray(picture)
     if pixels.ndim != 3 or pixels.shape[2] != 4 or pixels.dtype != np.uint8:
         raise InvalidArgumentError(f"the picture is {pixels.dtype} of shape {pixels.shape}; uint8 of (H, W, 4) is needed")
-    core.write_png(encoded(path), pixels)
+    height, width, _ = pixels.shape
+    check(lib.vxt_write_png(encoded(path), width, height, pointer("char", pixels.reshape(-1)), pixels.nbytes))

@@ -7,8 +7,17 @@ from typing import Optional
 import numpy as np
 import numpy.typing as npt
 
-from . import _core as core
 from ._common import numbers
+from ._errors import InvalidArgumentError
+from ._library import NULL, copied, doubles, ffi, lib, made, pointer
+from ._turns import guarded
+
+
+def _boxes(given: npt.ArrayLike, what: str) -> npt.NDArray[np.float64]:
+    boxes = numbers(given, what)
+    if boxes.ndim != 3 or boxes.shape[1:] != (2, 3):
+        raise InvalidArgumentError(f"{what} are no (N,2,3): the least and the greatest corner of each")
+    return doubles(boxes)
 
 
 def overlapping_pairs(boxes: npt.ArrayLike, others: Optional[npt.ArrayLike] = None) -> npt.NDArray[np.uint32]:
@@ -22,4 +31,11 @@ def overlapping_pairs(boxes: npt.ArrayLike, others: Optional[npt.ArrayLike] = No
 
         near = vx.overlapping_pairs(knife.boxes_at(poses), [head.bounds])[:, 0]   # poses that may touch at all
     """
-    return core.overlapping_pairs(numbers(boxes, "boxes"), None if others is None else numbers(others, "others"))
+    left = _boxes(boxes, "boxes")
+    # Of others that are none the pointer is not null: it would stand for the boxes themselves.
+    right = np.zeros((1, 2, 3)) if others is None else np.concatenate([_boxes(others, "others"), np.zeros((1, 2, 3))])
+    pairs = guarded(made, "box_pairs", lib.vxt_overlapping_pairs, ffi.cast("vxt_box*", pointer("double", left)), len(left),
+                    NULL if others is None else ffi.cast("vxt_box*", pointer("double", right)), len(right) - 1)
+    count = ffi.new("size_t*")
+    found = lib.vxt_box_pairs_get(pairs, count)
+    return copied(found, (count[0], 2), np.uint32)

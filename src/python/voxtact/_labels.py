@@ -13,6 +13,7 @@ import numpy.typing as npt
 from . import _core as core
 from ._common import check_made, encoded, not_pickled, numbers
 from ._errors import InvalidArgumentError
+from ._library import ffi, lib, made, text_of
 from ._volume import Volume, read_volume
 
 
@@ -82,7 +83,13 @@ def read_label_names(path: Union[str, os.PathLike[str]]) -> dict[int, str]:
     In names that are not UTF-8 the bytes that are none are surrogate escapes, as in Python's names of files. Those of a
     file in Latin-1 are ``name.encode("utf-8", "surrogateescape").decode("latin-1")``.
     """
-    return core.read_label_names(encoded(path))
+    found, label = made("label_names", lib.vxt_read_label_names, encoded(path)), ffi.new("int32_t*")
+    names: dict[int, str] = {}
+    index = 0
+    while name := lib.vxt_label_names_get(found, index, label):
+        names[label[0]] = text_of(name)
+        index += 1
+    return names
 
 
 def _checked(names: Optional[dict[int, str]]) -> Optional[dict[int, str]]:

@@ -3,21 +3,23 @@
 from __future__ import annotations
 
 import os
-from typing import Any, NoReturn, Optional, Union
+from typing import Any, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _core as core
-from ._common import BUILTIN, Space, array_of, check_space, encoded, encoded_text, not_pickled, number, numbers
+from ._common import BUILTIN, Space, array_of, checked_space, encoded, encoded_text, number, numbers
 from ._errors import InvalidArgumentError
+from ._request import check_affine, columns_of
 
 
 class Mesh:
     """A triangle mesh in its own coordinates, mm. `read_mesh` makes one. It does not change."""
 
-    __slots__ = ("_core",)
+    __slots__ = ("_core", "_assumed")
     _core: core.Mesh
+    _assumed: bool  # that the vertices are in LPS: nobody has said so
 
     def __init__(self) -> None:
         raise TypeError("voxtact.read_mesh() makes meshes: from a file, (vertices, faces), or a mesh object")
@@ -26,10 +28,11 @@ class Mesh:
     def _of(cls, made_of: core.Mesh) -> Mesh:
         made = cls.__new__(cls)
         made._core = made_of
+        made._assumed = False
         return made
 
     @property
-    def vertices(self) -> npt.NDArray[np.float32]:
+    def vertices(self) -> npt.NDArray[np.float64]:
         """(V,3): mm, read-only."""
         return self._core.vertices
 
@@ -45,7 +48,9 @@ class Mesh:
 
     def boxes_at(self, poses: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """(N,2,3): the least and the greatest corner of the world box around it at poses (N,4,4) or (4,4)."""
-        return core.mesh_boxes(self._core, numbers(poses, "poses"))
+        columns = columns_of(numbers(poses, "poses"))
+        check_affine(columns)
+        return self._core.boxes_at(columns)
 
     @property
     def degenerate(self) -> int:
@@ -71,8 +76,14 @@ class Mesh:
         size = " x ".join(f"{length:.4g}" for length in hi - lo)
         return f"<voxtact.Mesh {self.name!r}: {len(self.faces)} triangles, {len(self.vertices)} vertices, {size} mm>"
 
-    def __reduce__(self) -> NoReturn:
-        not_pickled(self)
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _mesh_again, (self.vertices, self.faces, self.name, self.notes)
+
+
+def _mesh_again(vertices: npt.NDArray[Any], faces: npt.NDArray[Any], name: str, notes: tuple[str, ...]) -> Mesh:
+    """What pickle calls."""
+    return Mesh._of(core.Mesh.make(vertices, faces, encoded_text(name, "name"),
+                                   [encoded_text(note, "a note") for note in notes]))
 
 
 def _mesh_of_arrays(vertices: Any, faces: Any, space: Space, scale: float, name: str,
@@ -92,18 +103,14 @@ def _mesh_of_arrays(vertices: Any, faces: Any, space: Space, scale: float, name:
         raise InvalidArgumentError(f"face {bad} is {corners[bad].tolist()}; there are {len(places)} vertices, from 0 on")
     if not (np.isfinite(scale) and scale > 0):
         raise InvalidArgumentError(f"scale={scale} must be positive and finite: mm in a unit of the vertices")
-    check_space(space, "space")
     exact = places.astype(np.float64) * scale
     if space == "ras":
         exact[:, :2] *= -1
-    with np.errstate(over="ignore"):
-        floats = np.ascontiguousarray(exact, dtype=np.float32)
-    if not np.isfinite(floats).all():
-        bad = int(np.argmin(np.isfinite(floats).all(axis=1)))
+    within = (np.abs(exact) <= np.finfo(np.float32).max).all(axis=1)
+    if not within.all():
+        bad = int(np.argmin(within))
         raise InvalidArgumentError(f"vertex {bad} is {places[bad].tolist()}, which no float32 holds")
-    if places.dtype != np.float32 and (floats != exact).any():
-        said.append(f"vertices rounded from {places.dtype} to float32")
-    return Mesh._of(core.Mesh.make(floats, np.ascontiguousarray(corners, dtype=np.uint32), encoded_text(name, "name"),
+    return Mesh._of(core.Mesh.make(np.ascontiguousarray(exact), np.ascontiguousarray(corners, dtype=np.uint32), encoded_text(name, "name"),
                                    [encoded_text(note, "a note") for note in said]))
 
 
@@ -185,7 +192,7 @@ def _of_vtk_mesh(mesh: Any, space: Space, scale: float) -> Mesh:
     return _mesh_of_arrays(vtk_to_numpy(mesh.GetPoints().GetData()), faces, space, scale, "vtkPolyData", notes)
 
 
-def read_mesh(source: Any, *, space: Space = "lps", scale: float = 1.0) -> Mesh:
+def read_mesh(source: Any, *, space: Optional[Space] = None, scale: float = 1.0) -> Mesh:
     """A mesh from a file, from arrays, or from a mesh of another library.
 
     source
@@ -193,25 +200,29 @@ def read_mesh(source: Any, *, space: Space = "lps", scale: float = 1.0) -> Mesh:
         - ``(vertices, faces)``: (V,3) numbers and (T,3) whole numbers
         - a trimesh (`.vertices`, `.faces`), a meshio mesh (triangles and quads), or a vtkPolyData
 
-    space: of the vertices. "ras" negates x and y; what comes out is always LPS.
+    space: of the vertices, "lps" unless it is said. "ras" negates x and y; what comes out is always LPS. An array with
+    `affine` is "ras" unless it is said: where both meet in a scene and neither was said, a warning asks for it.
     scale: millimetres in a unit of the vertices; 1000 for metres.
 
-    Vertices become float32; where that rounds, `Mesh.notes` says so. Raises FileError, FormatError, and
+    Vertices are float64; where single precision loses more than 0.0001 of them, `Mesh.notes` says so. Raises FileError, FormatError, and
     InvalidArgumentError, which names the vertex or face.
     """
     scale = number(scale, "scale")
+    assumed = space is None
+    space = checked_space(space or "lps", "space")
     if isinstance(source, Mesh):
         if space != "lps" or scale != 1.0:
             return _mesh_of_arrays(source.vertices, source.faces, space, scale, source.name)
         return source
-    check_space(space, "space")
     if isinstance(source, (str, bytes, os.PathLike)):
         if isinstance(source, str) and source.startswith(BUILTIN):
             mesh = Mesh._of(core.Mesh.builtin(encoded_text(source[len(BUILTIN):], "the name of the builtin")))
             return read_mesh(mesh, space=space, scale=scale)
         return Mesh._of(core.Mesh.read(encoded(source), space == "ras", scale))
     if isinstance(source, (tuple, list)) and len(source) == 2:
-        return _mesh_of_arrays(source[0], source[1], space, scale, "arrays")
+        mesh = _mesh_of_arrays(source[0], source[1], space, scale, "arrays")
+        mesh._assumed = assumed
+        return mesh
     if hasattr(source, "vertices") and hasattr(source, "faces"):
         return _mesh_of_arrays(source.vertices, source.faces, space, scale, "trimesh")
     if hasattr(source, "points") and hasattr(source, "cells"):

@@ -1,22 +1,25 @@
 # SPDX-License-Identifier: MIT
-"""Motions between poses, and what scenes answer about them."""
+"""Motions between poses, and answers about them."""
 from __future__ import annotations
 
-from typing import Any, Literal, NoReturn, Optional, Union
+from typing import Any, Literal, NoReturn, Optional
 
 import numpy as np
 import numpy.typing as npt
 
-from . import _core as core
-from ._common import Kept, check_made, encoded_text, members_of, no_truth, numbers, restored
+from ._common import check_made, encoded_text, no_truth, numbers, restored
+from ._engine import poses_between
 from ._errors import InvalidArgumentError
+from ._handles import Labels
 from ._mesh import Mesh
+from ._tables import UNDECIDED, YES, Tables
 
 #: "screw": about and along one axis. "slerp": the middle of the mesh's box goes straight, and the mesh turns about it.
 Interpolation = Literal["screw", "slerp"]
 
-_MEMBERS = ("hit", "possible", "free_until", "end", "touches", "item", "pose", "milliseconds")
 _ENDS = np.array(["decided", "grazes", "budget"])
+_TOUCH = np.dtype([("at", np.float64), ("triangle", np.int64), ("position", np.float64, 3), ("label", np.int32),
+                   ("world_from_object", np.float64, (4, 4))], align=True)
 
 
 def pose_between(first: npt.ArrayLike, second: npt.ArrayLike, at: npt.ArrayLike, *,
@@ -38,7 +41,7 @@ def pose_between(first: npt.ArrayLike, second: npt.ArrayLike, at: npt.ArrayLike,
     if mesh is not None and not isinstance(mesh, Mesh):
         raise TypeError(f"mesh is a {type(mesh).__name__}; voxtact.read_mesh() makes a voxtact.Mesh of it")
     centre = np.zeros(3) if mesh is None else np.mean(mesh.bounds, axis=0)
-    poses = core.poses_between(numbers(first, "first"), numbers(second, "second"),
+    poses = poses_between(numbers(first, "first"), numbers(second, "second"),
                                parameters.reshape(-1), encoded_text(interpolation, "interpolation"), centre)
     if parameters.ndim:
         return poses
@@ -47,90 +50,104 @@ def pose_between(first: npt.ArrayLike, second: npt.ArrayLike, at: npt.ArrayLike,
 
 
 class Motion:
-    """What `Scene.motion` found: a row for each segment, the way from one pose to the next, in order.
+    """The answer of `Scene.motion`: a row for each segment from one pose to the next, in order.
 
     A mesh of N poses has N - 1 of them. Of each the pose at a parameter from 0 to 1 is `pose_between`.
     """
 
-    __slots__ = ("_core",)
-    _core: Union[core.Motions, Kept]
+    __slots__ = ("_tables", "_labels", "_impacts")
+    _tables: Tables
+    _labels: Optional[Labels]
+    _impacts: Optional[npt.NDArray[np.void]]
 
-    def __init__(self, made_of: core.Motions) -> None:
-        check_made(made_of, core.Motions, "Scene.motion()")
-        self._core = made_of
-
-    @property
-    def hit(self) -> npt.NDArray[np.bool_]:
-        """(S,): it certainly touches at some pose on the way."""
-        return self._core.hit
-
-    @property
-    def possible(self) -> npt.NDArray[np.bool_]:
-        """(S,): neither a touch nor that there is none could be shown. Where neither this nor `hit`, all of it is free."""
-        return self._core.possible
+    def __init__(self, made_of: Tables, labels: Optional[Labels]) -> None:
+        check_made(made_of, Tables, "Scene.motion()")
+        self._tables = made_of
+        self._labels = labels
+        self._impacts = None
 
     @property
-    def free_until(self) -> npt.NDArray[np.float64]:
-        """(S,): certainly nothing touches from 0 to this parameter; 1: all of the segment is free."""
-        return self._core.free_until
+    def touches(self) -> npt.NDArray[np.bool_]:
+        """(S,): the mesh certainly touches on the way."""
+        return self._tables.touch_is(YES)
 
     @property
-    def touch_at(self) -> npt.NDArray[np.float64]:
-        """(S,): a parameter at which it certainly touches, the earliest that was found; NaN where there is none."""
-        at: npt.NDArray[np.float64] = self._core.touches["at"]
-        return at
+    def undecided(self) -> npt.NDArray[np.bool_]:
+        """(S,): undecided. Neither `touches` nor `undecided`: the segment is collision-free."""
+        return self._tables.touch_is(UNDECIDED)
 
     @property
-    def touches(self) -> npt.NDArray[np.void]:
-        """(S,): the touch of each segment. `triangle` is -1 where there is none, and the rest is then NaN (`label` 0).
+    def toi_lower(self) -> npt.NDArray[np.float64]:
+        """(S,): collision-free from 0 to this parameter; 1: all the way."""
+        return np.asarray(self._tables.rows("segments")["toi_lower"])
+
+    @property
+    def toi_upper(self) -> npt.NDArray[np.float64]:
+        """(S,): certainly touching at this parameter, the earliest that was found; NaN: none."""
+        return np.asarray(self._tables.rows("segments")["toi_upper"])
+
+    @property
+    def impacts(self) -> npt.NDArray[np.void]:
+        """(S,): the touch at `toi_upper`. Without one `triangle` is -1, `label` 0 and the rest NaN.
 
         `at`, the parameter; `triangle`, its number in the mesh; `position` (3), LPS, mm, on the triangle and opaque;
         `label` there, 0 without a label map; `world_from_object` (4,4), the pose.
         """
-        return self._core.touches
+        if self._impacts is None:
+            rows, hit = self._tables.rows("segments"), self.touches
+            found = np.zeros(len(rows), _TOUCH)
+            found["at"] = rows["toi_upper"]
+            found["triangle"] = np.where(hit, rows["triangle"].astype(np.int64), -1)
+            found["position"] = np.where(hit[:, None], rows["point"], np.nan)
+            poses = rows["world_from_object"].reshape(-1, 4, 4).transpose(0, 2, 1)
+            found["world_from_object"] = np.where(hit[:, None, None], poses, np.nan)
+            if self._labels is not None:
+                found["label"][hit] = self._labels.at(rows["point"][hit])
+            self._impacts = found
+        return self._impacts
 
     @property
     def end(self) -> npt.NDArray[np.str_]:
-        """Why no more is said.
+        """Why the search ended.
 
-        "decided": it is free, or it moves no more than the resolution from `free_until` to `touch_at`. "grazes":
-        somewhere it is so near that within the resolution neither is shown. "budget": `most_steps`.
+        "decided": collision-free, or the mesh moves at most the resolution from `toi_lower` to `toi_upper`. "grazes":
+        too near to decide within the resolution. "budget": `max_steps`.
         """
-        names: npt.NDArray[np.str_] = _ENDS[self._core.end]
+        names: npt.NDArray[np.str_] = _ENDS[self._tables.rows("segments")["end"]]
         return names
 
     @property
     def item(self) -> npt.NDArray[np.uint32]:
         """(S,): the number of the mesh in the list that was given; 0 for a single one."""
-        return self._core.item
+        return self._tables.item()
 
     @property
     def pose(self) -> npt.NDArray[np.uint32]:
         """(S,): the number, among those of its mesh, of the pose that the segment begins with."""
-        return self._core.pose
+        return self._tables.pose()
 
     @property
     def seconds(self) -> float:
-        """What the engine took."""
-        return self._core.milliseconds / 1000
+        """Duration in the engine."""
+        return self._tables.milliseconds / 1000
 
     def plot(self, ax: Any = None) -> Any:
-        """What is free of each segment, with matplotlib; the axes. Touches are red, what is possible is hollow."""
+        """Plots the collision-free part of each segment with matplotlib; returns the axes. Red: touches; hollow: undecided."""
         from ._plot import plot_motion
 
         return plot_motion(self, ax)
 
     def __len__(self) -> int:
-        return len(self._core)
+        return len(self._tables)
 
     def __repr__(self) -> str:
-        hits, possible = int(self.hit.sum()), int(self.possible.sum())
-        more = f", {possible} possibly" if possible else ""
-        first = f"; the first in segment {int(np.argmax(self.hit))}" if hits else ""
+        hits, undecided = int(self.touches.sum()), int(self.undecided.sum())
+        more = f", {undecided} undecided" if undecided else ""
+        first = f"; the first in segment {int(np.argmax(self.touches))}" if hits else ""
         return f"<voxtact.Motion: {hits} of {len(self)} segments touch{more}{first}>"
 
     def __bool__(self) -> NoReturn:
-        no_truth(self, ".hit, or .hit.any()")
+        no_truth(self, ".touches, or .touches.any()")
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return restored, (Motion, {"_core": Kept(len(self), members_of(self._core, _MEMBERS))})
+        return restored, (Motion, {"_tables": self._tables, "_labels": None, "_impacts": self.impacts})

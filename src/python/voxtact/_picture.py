@@ -11,10 +11,13 @@ from typing import Any, Literal, NamedTuple, Optional, Union
 import numpy as np
 import numpy.typing as npt
 
-from . import _core as core
 from ._common import encoded, encoded_text, number, numbers
 from ._errors import InvalidArgumentError
+from ._library import lib, made
+from ._tables import points_of
 from ._volume import Volume
+from ._wish import look as look_of
+from ._wish import look_names
 
 #: Red, green and blue, 0 to 1.
 Colour = tuple[float, float, float]
@@ -35,7 +38,7 @@ class Look(NamedTuple):
 
 def looks() -> tuple[str, ...]:
     """The names of the looks that there are: "mr", "ct-bone", …"""
-    return tuple(core.look_names())
+    return tuple(look_names())
 
 
 def look(name: str, volume: Volume) -> Look:
@@ -46,12 +49,12 @@ def look(name: str, volume: Volume) -> Look:
     """
     if not isinstance(volume, Volume):
         raise TypeError(f"volume is a {type(volume).__name__}; voxtact.read_volume() makes a voxtact.Volume of it")
-    return Look(*core.look(encoded_text(name, "name"), volume._core))
+    return Look(*look_of(encoded_text(name, "name"), volume._core))
 
 
 def read_colours(path: Union[str, os.PathLike[str]]) -> npt.NDArray[np.float64]:
     """The colours of a transfer function in JSON (docs/cli.md): (N,4), value, red, green and blue; (0,4): it has none."""
-    return core.read_colours(encoded(path))
+    return points_of(lib.vxt_colour_points_get, made("colour_points", lib.vxt_read_colours, encoded(path)), 4)
 
 
 def _colour(given: Any, what: str) -> tuple[float, ...]:
@@ -109,7 +112,7 @@ def _chosen(given: Any, pairs: int, meshes: int) -> tuple[list[int], list[int]]:
 def picture_options(pairs: int, meshes: int, *, size: list[int], view: Any, preset: Optional[str], colours: Any,
                     background: Any, lighting: str, show: Optional[str], through: Optional[float], triangles: Any,
                     mesh_colours: Any, clip: Any, clip_meshes: bool) -> dict[str, Any]:
-    """What the compiled part takes."""
+    """What the library takes."""
     if preset is not None and colours is not None:
         raise InvalidArgumentError("preset and colours both say which colours the volume has; leave out one of them")
     options: dict[str, Any] = {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Straight paths to a target, and what is certain of them."""
+"""Straight paths to a target, and their certified distances."""
 from __future__ import annotations
 
 import operator
@@ -11,23 +11,26 @@ import numpy.typing as npt
 
 from . import _core as core
 from ._arguments import Opacity, pair
-from ._common import Kept, check_made, listed, members_of, no_truth, number, numbers, restored, whole_number
+from ._common import check_made, listed, no_truth, number, numbers, restored, whole_number
 from ._errors import InvalidArgumentError, NotReadyError
 from ._labels import Labels
+from ._library import not_zero, vector
 from ._mesh import Mesh
+from ._tables import Tables
 
-_MEMBERS = ("paths", "triangles", "safe", "triangle_clearance", "area", "safe_area", "no_surface", "on_border", "too_long",
-            "too_oblique", "milliseconds")
-_UNSAFE, _SAFE, _POSSIBLE = range(3)
+_PATH = np.dtype([("entry", np.uint32), ("position", np.float64, 3), ("length", np.float64), ("angle", np.float64),
+                  ("safety", np.uint8), ("lower", np.float64), ("upper", np.float64), ("end", np.uint8), ("obstacle", np.int32),
+                  ("label", np.int32), ("nearest", np.float64, 3), ("on_path", np.float64, 3)], align=True)
+_UNSAFE, _SAFE, _UNDECIDED = range(3)
 
 
 def plan_options(labels: Optional[Labels], *, avoid: Sequence[Union[int, str]], avoid_opacity: Opacity, avoid_volume: Any,
                  needle: Optional[tuple[float, float]], mesh: Optional[Mesh], tip: Optional[npt.ArrayLike],
                  axis: Optional[npt.ArrayLike], entries: int, entry_label: Union[None, int, str],
                  entry_radius: Optional[float], border_entries: bool, margin: float, max_length: Optional[float],
-                 max_angle: Optional[float], tolerance: float, maximum: float, most_steps: int,
-                 triangle_clearances: bool) -> dict[str, Any]:
-    """What `Scene.plan` asks the compiled part for; `labels` are the scene's."""
+                 max_angle: Optional[float], tolerance: float, max: float, max_steps: int,
+                 triangle_distances: bool) -> dict[str, Any]:
+    """Members of vxt_plan, and `avoid`; `labels` are the scene's."""
     avoided = listed(avoid, "avoid")
     if not avoided and avoid_opacity is None:
         raise InvalidArgumentError("avoid, avoid_opacity: one of them must say what is not to be touched")
@@ -41,58 +44,84 @@ def plan_options(labels: Optional[Labels], *, avoid: Sequence[Union[int, str]], 
         raise InvalidArgumentError("tip and axis are of a mesh: give mesh=, too")
     if mesh is not None and (needle is not None or tip is None or axis is None):
         raise InvalidArgumentError("a mesh comes with tip= and axis=, and without needle=")
-    wish: dict[str, Any] = {"entries": whole_number(entries, "entries", 1, core.MOST_ENTRIES),
-                               "margin": number(margin, "margin"),
-                               "tolerance": number(tolerance, "tolerance"), "maximum": number(maximum, "maximum"),
-                               "most_steps": whole_number(most_steps, "most_steps", 1)}
-    if triangle_clearances:
-        wish["triangle_clearances"] = True
+    wish: dict[str, Any] = {"entries": whole_number(entries, "entries", 1, core.MAX_ENTRIES),
+                            "margin": number(margin, "margin"),
+                            "tolerance": not_zero(number(tolerance, "tolerance"), "plan", "tolerance"),
+                            "max": not_zero(number(max, "max"), "plan", "max"),
+                            "max_steps": whole_number(max_steps, "max_steps", 1), "border_entries": bool(border_entries),
+                            "triangle_distances": bool(triangle_distances), "avoid": [], "entry_by_label": entry_label is not None}
     if labels is not None:
         wish["avoid"] = [labels._number(label, "a label of avoid") for label in avoided]
     if entry_label is not None and labels is not None:
         wish["entry_label"] = labels._number(entry_label, "entry_label")
-    wish["border_entries"] = bool(border_entries)
     if needle is not None:
-        wish["needle"] = pair(needle, "needle")
-    given = {"entry_radius": entry_radius, "max_length": max_length, "max_angle": max_angle}
-    wish.update({name: number(value, name) for name, value in given.items() if value is not None})
+        wish["needle_diameter"], wish["needle_length"] = pair(needle, "needle")
+        if not wish["needle_diameter"] or not wish["needle_length"]:
+            raise InvalidArgumentError(f"needle is {needle!r}; its diameter and its length must be above 0 mm")
+    if entry_radius is not None:
+        wish["entry_radius"] = number(entry_radius, "entry_radius")
+        if not wish["entry_radius"]:
+            raise InvalidArgumentError("the entry radius 0 mm is not a number above 0.001 mm")
+    if max_length is not None:
+        wish["max_length"] = not_zero(number(max_length, "max_length"), "plan", "max_length")
+    if max_angle is not None:
+        wish.update(max_angle=number(max_angle, "max_angle"), limit_angle=1)
     if mesh is not None and tip is not None and axis is not None:
         if not isinstance(mesh, Mesh):
             raise TypeError(f"mesh is a {type(mesh).__name__}; voxtact.read_mesh() makes a voxtact.Mesh of it")
-        wish.update(mesh=mesh._core, tip=numbers(tip, "tip"), axis=numbers(axis, "axis"))
+        held = vector(numbers(axis, "axis"), "axis")
+        if not any(held):
+            raise InvalidArgumentError("axis: 0,0,0 points nowhere; it goes from the tip to where the instrument is held")
+        wish.update(mesh=mesh._core.on_host, mesh_tip=vector(numbers(tip, "tip"), "tip"), mesh_axis=held)
     return wish
 
 
+def _paths_of(rows: npt.NDArray[np.void], first: int) -> npt.NDArray[np.void]:
+    """first: the number of the first obstacle, 0 labels, 1 what is opaque."""
+    found = np.zeros(len(rows), _PATH)
+    none = rows["near"] == 0
+    for name, column in (("entry", "entry"), ("position", "position"), ("length", "length"), ("angle", "angle"),
+                         ("safety", "safe"), ("lower", "lower"), ("upper", "upper"), ("end", "end")):
+        found[name] = rows[column]
+    found["obstacle"] = np.where(none, -1, rows["obstacle"].astype(np.int32) + first)
+    found["label"] = np.where(none, 0, rows["label"])
+    for name in ("nearest", "on_path"):
+        found[name] = np.where(none[:, None], np.nan, rows[name])
+    return found
+
+
 class Plan:
-    """What `Scene.plan` found: a row for each path, in the order of the directions."""
+    """The answer of `Scene.plan`: a row for each path, in the order of the directions."""
 
-    __slots__ = ("_core", "_names", "_with_clearances")
-    _core: Union[core.Plan, Kept]
+    __slots__ = ("_tables", "_paths", "_names", "_with_distances")
+    _tables: Tables
+    _paths: npt.NDArray[np.void]
     _names: dict[int, str]
-    _with_clearances: bool
+    _with_distances: bool
 
-    def __init__(self, made_of: core.Plan, labels: Optional[Labels], with_clearances: bool) -> None:
-        check_made(made_of, core.Plan, "Scene.plan()")
-        self._core = made_of
+    def __init__(self, made_of: Tables, labels: Optional[Labels], avoids_labels: bool, with_distances: bool) -> None:
+        check_made(made_of, Tables, "Scene.plan()")
+        self._tables = made_of
+        self._paths = _paths_of(made_of.rows("paths"), 0 if avoids_labels else 1)
         self._names = {} if labels is None else labels.names
-        self._with_clearances = with_clearances
+        self._with_distances = with_distances
 
     @property
     def safe(self) -> npt.NDArray[np.bool_]:
-        """(N,): it certainly keeps more than the margin from all that is to be avoided, all the way."""
+        """(N,): the path certainly keeps the margin from all obstacles, all the way."""
         found: npt.NDArray[np.bool_] = self.paths["safety"] == _SAFE
         return found
 
     @property
-    def possible(self) -> npt.NDArray[np.bool_]:
-        """(N,): neither that nor the contrary could be shown."""
-        found: npt.NDArray[np.bool_] = self.paths["safety"] == _POSSIBLE
+    def undecided(self) -> npt.NDArray[np.bool_]:
+        """(N,): undecided."""
+        found: npt.NDArray[np.bool_] = self.paths["safety"] == _UNDECIDED
         return found
 
     @property
-    def clearance(self) -> npt.NDArray[np.float64]:
-        """(N,2): how near each comes on its way is between these, mm; 0 where it touches, infinite beyond `maximum`."""
-        return np.stack([self.paths["lo"], self.paths["hi"]], axis=1)
+    def distance(self) -> npt.NDArray[np.float64]:
+        """(N,2): lower and upper bound of the distance of each path, mm; 0 where it touches, infinite beyond `max`."""
+        return np.stack([self.paths["lower"], self.paths["upper"]], axis=1)
 
     @property
     def entries(self) -> npt.NDArray[np.float64]:
@@ -102,68 +131,68 @@ class Plan:
 
     @property
     def paths(self) -> npt.NDArray[np.void]:
-        """(N,): all that is known of each.
+        """(N,): the rows of all paths.
 
         `entry`, the number of its direction; `position` (3) of the entry, LPS, mm; `length`, mm; `angle`, degrees to the
-        normal of the entries' surface, NaN where it has none; `safety`, 0 unsafe, 1 safe, 2 possible; `lo`, `hi`, `end`
-        as in `Clearance`; `obstacle`, 0 labels, 1 what is opaque, -1 nothing within the maximum; `label` of what is
+        normal of the entries' surface, NaN where it has none; `safety`, 0 unsafe, 1 safe, 2 undecided; `lower`, `upper`, `end`
+        as in `Distance`; `obstacle`, 0 labels, 1 what is opaque, -1 nothing within `max`; `label` of what is
         nearest; `nearest` (3), a point of it; `on_path` (3), the nearest of the needle's axis or of the mesh.
         """
-        return self._core.paths
+        return self._paths
 
     @property
     def best(self) -> Optional[int]:
-        """The row of the safe path with the largest clearance, of several the shortest; None: no path is safe."""
+        """The row of the safe path with the largest distance, of several the shortest; None: no path is safe."""
         rows = np.flatnonzero(self.safe)
         if not rows.size:
             return None
-        order = np.lexsort((self.paths["length"][rows], -self.paths["lo"][rows]))
+        order = np.lexsort((self.paths["length"][rows], -self.paths["lower"][rows]))
         return int(rows[order[0]])
 
     @property
     def triangles(self) -> npt.NDArray[np.uint32]:
         """(T,3): rows of neighbouring paths, outward counter-clockwise: the surface that the entries are on."""
-        return self._core.triangles
+        return np.asarray(self._tables.rows("triangles")["paths"])
 
     @property
     def triangle_safe(self) -> npt.NDArray[np.bool_]:
         """(T,): *every* path from anywhere in the triangle is safe. Never so for a mesh, whose paths alone are decided."""
-        return self._core.safe
+        found: npt.NDArray[np.bool_] = self._tables.rows("triangles")["safe"] == 1
+        return found
 
     @property
-    def triangle_clearance(self) -> npt.NDArray[np.float64]:
-        """(T,): *every* path from anywhere in the triangle certainly keeps at least so much, mm, up to `maximum`.
+    def triangle_distance(self) -> npt.NDArray[np.float64]:
+        """(T,): lower bound of the distance of *every* path from the triangle, mm, up to `max`.
 
-        NotReadyError where the plan was made without triangle_clearances=True.
+        NotReadyError where the plan was made without triangle_distances=True.
         """
-        if not self._with_clearances:
-            raise NotReadyError("the plan was made without triangle_clearances=True; plan again with it")
-        return self._core.triangle_clearance
+        if not self._with_distances:
+            raise NotReadyError("the plan was made without triangle_distances=True; plan again with it")
+        return np.asarray(self._tables.rows("triangles")["distance"])
 
     @property
     def area(self) -> float:
         """Of all triangles, mm²."""
-        return self._core.area
+        return self._tables.total("area")
 
     @property
     def safe_area(self) -> float:
         """Of the safe ones, mm²."""
-        return self._core.safe_area
+        return self._tables.total("safe_area")
 
     @property
     def left_out(self) -> dict[str, int]:
         """How many of the directions have no path, and why: "no_surface", "on_border", "too_long",
         "too_oblique"."""
-        of = self._core
-        return {"no_surface": of.no_surface, "on_border": of.on_border, "too_long": of.too_long, "too_oblique": of.too_oblique}
+        return {name: int(self._tables.total(name)) for name in ("no_surface", "on_border", "too_long", "too_oblique")}
 
     @property
     def seconds(self) -> float:
-        """What the engine took."""
-        return self._core.milliseconds / 1000
+        """Duration in the engine."""
+        return self._tables.milliseconds / 1000
 
     def nearest_name(self, row: int) -> str:
-        """What a path comes nearest to: a label's name or number, "opaque", or "" where there is nothing."""
+        """Returns the nearest obstacle of a path: a label's name or number, "opaque", or "" for none."""
         path = self.paths[range(len(self))[operator.index(row)]]
         if path["obstacle"] < 0:
             return ""
@@ -173,18 +202,18 @@ class Plan:
         return self._names.get(label, str(label))
 
     def __len__(self) -> int:
-        return len(self._core)
+        return len(self._paths)
 
     def __repr__(self) -> str:
-        possible = int(self.possible.sum())
-        more = f", {possible} possibly" if possible else ""
+        undecided = int(self.undecided.sum())
+        more = f", {undecided} undecided" if undecided else ""
         best = self.best
-        what = "" if best is None else f"; the best keeps {self.paths['lo'][best]:.4g} mm"
+        what = "" if best is None else f"; the best keeps {self.paths['lower'][best]:.4g} mm"
         return f"<voxtact.Plan: {int(self.safe.sum())} of {len(self)} paths are safe{more}{what}>"
 
     def __bool__(self) -> NoReturn:
         no_truth(self, ".safe, or .safe.any()")
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return restored, (Plan, {"_core": Kept(len(self), members_of(self._core, _MEMBERS)), "_names": dict(self._names),
-                                 "_with_clearances": self._with_clearances})
+        return restored, (Plan, {"_tables": self._tables, "_paths": self._paths, "_names": dict(self._names),
+                                 "_with_distances": self._with_distances})

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Scenes, which are asked."""
+"""Scenes."""
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
 from typing import Any, Literal, NoReturn, Optional, Union
 
@@ -9,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core as core
-from ._answer import Answer
+from ._answer import Count, Touch
 from ._arguments import (
     Method,
     Opacity,
@@ -23,10 +24,12 @@ from ._arguments import (
     told,
     whole,
 )
-from ._common import array_of, encoded_text, exact_in_float32, listed, not_pickled, number, numbers, whole_number
+from ._common import array_of, exact_in_float32, listed, not_pickled, number, numbers, whole_number
 from ._device import Device, best_device, opened
+from ._enclosed import enclosed
 from ._errors import Error, InvalidArgumentError
 from ._labels import Labels, read_labels
+from ._library import not_zero
 from ._measuring import RESOLUTION, Measuring
 from ._mesh import Mesh
 from ._picture import Clip, Colour, Light, Show, picture_options, png
@@ -34,13 +37,34 @@ from ._plan import Plan, plan_options
 from ._view import View
 from ._volume import Volume, read_volume
 
-_MOST_CONTACTS = 2**20
+
+class _OpacityProperty(property):
+    """A property that is set by more types than it has."""
+
+    def __get__(self, scene: Any, owner: Optional[type] = None) -> npt.NDArray[np.float64]:
+        points: npt.NDArray[np.float64] = super().__get__(scene, owner)
+        return points
+
+    def __set__(self, scene: Any, opacity: Opacity) -> None:
+        super().__set__(scene, opacity)
+
+
+_MAX_CONTACTS = 2**20
 _SAMPLES_PER_VOXEL = 1
 _MAX_DEPTH = 10.0
+_NO_MARGIN = 0.0
+_PLAIN_TOUCH = (0.0, 0.0, 0.0, False, 0.0, 0)
+
+
+def _uncertainty_of(given: Any) -> tuple[float, float]:
+    both = listed(given, "uncertainty")
+    if len(both) != 2:
+        raise InvalidArgumentError(f"uncertainty is {given!r}; two numbers are needed: (mm, degrees)")
+    return number(both[0], "uncertainty[0]"), number(both[1], "uncertainty[1]")
 
 
 class Scene(Measuring):
-    """A volume, and what of it is opaque: what meshes are put to.
+    """A volume and its opaque region, which meshes are tested against.
 
     volume
         whatever `read_volume` takes without options
@@ -50,44 +74,47 @@ class Scene(Measuring):
     threshold
         a sample is opaque where its opacity is at least this: 0 to 1
     domain, table_size
-        opacity is sampled into that many entries over these values; None: 0 to 255 for uint8, else the volume's values
+        of the table that projections other than "certified" look opacity up in: what values it covers, and in how
+        many entries. None: 256 over 0 to 255 for uint8, else 4096 over the volume's values
     labels
-        what `read_labels` takes: for the labels of contacts, and for clearances to and areas in labels
+        what `read_labels` takes: for the labels of contacts, and for distances, areas and overlaps of labels
     device
         None: the host engine, on all processors. True: the best Vulkan device. Or a number or name of `devices()`, or a
-        `Device`. Clearances and areas are measured by the host engine, and pictures are made by a device, wherever the scene is
+        `Device`. Counts and touches run there; the host engine answers all else, and a device makes pictures
     threads
         of the host engine; 0: one for each processor
 
     Poses are (N,4,4) or (4,4), world_from_object, written row by row (``pose @ [x, y, z, 1]``), affine; the world is
-    LPS, millimetres (`LPS_FROM_RAS` is the way there from RAS). What is asked sees all changes that were made before.
+    LPS, millimetres (`LPS_FROM_RAS` is the way there from RAS). Queries use all changes made before.
 
     Scenes can be used by threads, one call at a time: the others wait. Work does not hold the interpreter's lock. A
     KeyboardInterrupt ends it within a second: on the host also in the middle of a pose, on a device between two pieces
     of about a tenth of a second.
     """
 
-    __slots__ = ("_core", "_volume", "_labels", "_device", "_domain", "_table_size", "_closed", "__weakref__")
+    __slots__ = ("_core", "_volume", "_labels", "_device", "_domain", "_table_size", "_closed", "_warned", "__weakref__")
 
     def __init__(self, volume: Any, opacity: Opacity = None, threshold: float = core.DEFAULT_THRESHOLD, *,
-                 domain: Optional[tuple[float, float]] = None, table_size: int = core.DEFAULT_TABLE_SIZE,
+                 domain: Optional[tuple[float, float]] = None, table_size: Optional[int] = None,
                  labels: Any = None, device: Union[None, bool, int, str, Device] = None, threads: int = 0) -> None:
         self._volume = read_volume(volume)
         self._labels: Optional[Labels] = None if labels is None else read_labels(labels)
         self._device = opened(device)
         self._domain = None if domain is None else pair(domain, "domain")
-        self._table_size = whole_number(table_size, "table_size", 2, core.MOST_TABLE_SIZE)
+        fitting = core.DEFAULT_TABLE_SIZE if self._volume.dtype == "uint8" else 4096
+        self._table_size = fitting if table_size is None else whole_number(table_size, "table_size", 2, core.MAX_TABLE_SIZE)
         self._closed = False
+        self._warned = False
         self._core = core.Scene(self._volume._core, points(opacity), self._domain, self._table_size, number(threshold, "threshold"),
                                  None if self._labels is None else self._labels._core,
                                  None if self._device is None else self._device._core,
-                                 whole_number(threads, "threads", 0, core.MOST_THREADS))
+                                 whole_number(threads, "threads", 0, core.MAX_THREADS))
 
-    # What it is
+    # Parts
 
     @property
     def volume(self) -> Volume:
-        """What it was made of, without edits."""
+        """The volume as given, without edits."""
         return self._volume
 
     @property
@@ -97,17 +124,17 @@ class Scene(Measuring):
 
     @property
     def device(self) -> Optional[Device]:
-        """The device that it is on; None: the host."""
+        """The device of the scene; None: the host."""
         return self._device
 
-    @property
-    def opacity(self) -> npt.NDArray[np.float64]:
-        """(N,2): value and opacity. Set it, and the next answer has seen it."""
+    def _opacity(self) -> npt.NDArray[np.float64]:
         return self._core.opacity
 
-    @opacity.setter
-    def opacity(self, opacity: Opacity) -> None:
+    def _set_opacity(self, opacity: Opacity) -> None:
         self._core.set_opacity(points(opacity), self._domain, self._table_size)
+
+    opacity = _OpacityProperty(_opacity, _set_opacity,
+                              doc="(N,2): value and opacity. The next query uses what is set.")
 
     @property
     def domain(self) -> tuple[float, float]:
@@ -116,7 +143,7 @@ class Scene(Measuring):
 
     @property
     def threshold(self) -> float:
-        """The opacity from which a sample is opaque. Set it, and the next answer has seen it."""
+        """The opacity from which a sample is opaque. The next query uses what is set."""
         return self._core.threshold
 
     @threshold.setter
@@ -128,7 +155,7 @@ class Scene(Measuring):
     def edit(self, *, ball: Optional[npt.ArrayLike] = None, box: Optional[Sequence[int]] = None,
              value: Optional[float] = None, at: Optional[Sequence[int]] = None,
              voxels: Optional[npt.ArrayLike] = None) -> None:
-        """Changes voxels; the next answer has seen it. One of:
+        """Changes voxels; the next query uses them. One of:
 
         edit(ball=(x, y, z, r), value=v)
             all voxels whose centre is at most r mm from a point of the world (LPS, mm)
@@ -168,41 +195,88 @@ class Scene(Measuring):
 
     # Questions
 
-    def detect(self, mesh: Union[Mesh, Sequence[tuple[Mesh, Poses]]], poses: Optional[Poses] = None, *,
-               triangles: bool = False, contacts: bool = False, bounds: bool = False, labels: bool = False,
-               yes_no: bool = False, projection: Projection = "conservative", method: Optional[Method] = None,
-               filter: Optional[Literal["hardware", "exact"]] = None,
-               boundary: Literal["auto", "range", "clamp"] = "auto", resolution: float = RESOLUTION,
-               samples_per_voxel: int = _SAMPLES_PER_VOXEL, max_depth: float = _MAX_DEPTH, most_contacts: int = _MOST_CONTACTS,
-               overestimate: bool = False, counters: bool = False, view: Optional[View] = None,
-               progress: Progress = None) -> Answer:
-        """Which poses touch, how much, and where: an `Answer` with a row for each pose, in order.
+    def touch(self, mesh: Union[Mesh, Sequence[tuple[Mesh, Poses]]], poses: Optional[Poses] = None, *, margin: float = _NO_MARGIN,
+              uncertainty: Optional[tuple[float, float]] = None, witness: bool = False, resolution: float = RESOLUTION,
+              max_steps: int = core.DEFAULT_TOUCH_STEPS, progress: Progress = None) -> Touch:
+        """Decides whether each pose touches: a `Touch` with a row for each pose, in order.
+
+        The mesh is its surface: an opaque region that a closed mesh encloses without touching it is no contact. A
+        warning says so where the first pose encloses one and no pose touches.
+
+        mesh, poses
+            a mesh at poses, (N,4,4) or (4,4); or a list of (mesh, poses) alone
+        margin
+            mm: decides whether anything opaque is within this distance of the surface
+        uncertainty
+            (mm, degrees): decides whether the mesh touches at any pose that is turned by at most so many degrees (0 to
+            180) about any axis through the object's origin, and then moved by at most so many mm
+        witness
+            finds a witness point of each yes: `Touch.witness`; not with an uncertainty
+        resolution
+            voxels: minimum size of the pieces of a triangle
+        max_steps
+            iteration limit per pose, which is then undecided
+        progress
+            a function of (done, all), a bar of tqdm, or tqdm itself
+
+        A scene on a device answers there, without margin, uncertainty, witness and max_steps; else the host answers.
+        Raises InvalidArgumentError for shapes, NaN, and poses that are not affine (naming the first one).
+        """
+        options = _PLAIN_TOUCH
+        if (margin is not _NO_MARGIN or uncertainty is not None or witness or resolution is not RESOLUTION
+                or max_steps is not core.DEFAULT_TOUCH_STEPS):
+            distance, angle = (0.0, 0.0) if uncertainty is None else _uncertainty_of(uncertainty)
+            if witness and uncertainty is not None:
+                raise InvalidArgumentError("a touch has witness= or uncertainty=, not both")
+            steps = whole_number(max_steps, "max_steps", 1)
+            size = 0.0 if resolution is RESOLUTION else not_zero(number(resolution, "resolution"), "count", "resolution")
+            options = (number(margin, "margin"), distance, angle, bool(witness), size, 0 if steps == core.DEFAULT_TOUCH_STEPS else steps)
+        meshes, matrices = asked(mesh, poses, self._volume)
+        if progress is None:
+            tables = self._core.touch(meshes, matrices, options, None)
+        else:
+            with told(progress, pairs_in(meshes, matrices)) as tell:
+                tables = self._core.touch(meshes, matrices, options, tell)
+        if not self._warned and not tables.touches():
+            self._warn_of_enclosed(len(tables), mesh, matrices)
+        return Touch(tables, None if self._labels is None else self._labels._core, options[3])
+
+    def count(self, mesh: Union[Mesh, Sequence[tuple[Mesh, Poses]]], poses: Optional[Poses] = None, *,
+              triangles: bool = False, contacts: bool = False, bounds: bool = False, labels: bool = False,
+              stop_at_first: bool = False, projection: Projection = "certified", method: Optional[Method] = None,
+              filter: Optional[Literal["hardware", "exact"]] = None,
+              boundary: Literal["auto", "range", "clamp"] = "auto", resolution: float = RESOLUTION,
+              samples_per_voxel: int = _SAMPLES_PER_VOXEL, max_depth: float = _MAX_DEPTH, max_contacts: int = _MAX_CONTACTS,
+              overestimate: bool = False, counters: bool = False, view: Optional[View] = None,
+              progress: Progress = None) -> Count:
+        """Counts the passing fragments of each pose, and finds contacts: a `Count` with a row for each pose, in order.
+
+        As of `touch`, the mesh is its surface.
 
         mesh, poses
             a mesh at poses, (N,4,4) or (4,4); or a list of (mesh, poses) alone
         triangles, contacts, bounds, labels
-            asks for these in the same go. What was not asked for is found out when you look at it, as long as the scene
-            has not changed since; that costs another detection
-        yes_no
-            whether it touches is enough: it stops at the first contact, which is much faster for deep poses
+            asks for these in the same call. Reading another one asks again, unless the scene has changed
+        stop_at_first
+            stops at the first fragment: the count is then 0 or 1. `touch` is faster for the projection "certified"
         projection
-            "conservative" is certified: no contact is missed, and *possible* says where rounding decides. "view",
-            "two-view" (of `view`; without, from above) and "dominant-axis" (`samples_per_voxel`, 1 to 16) count pixels
+            "certified": misses no contact; "undecided" where rounding decides. "view", "two-view" (of `view`; default
+            from above) and "dominant-axis" (`samples_per_voxel`, 1 to 16) count pixels
         method, filter, boundary, overestimate
-            how a device counts; see docs/counting.md. "auto" is the fastest one that counts, measured once for each
-            `Device`; None: `Device.default_method`. The host engine has "cpu" and "exact"
+            how a device counts; see docs/counting.md. None and "auto": `Device.default_method`. The host engine has
+            "cpu" and "exact"
         resolution
-            conservative: how small, in voxels, the pieces of a triangle may get
+            voxels: minimum size of the pieces of a triangle, of "certified"
         max_depth
-            mm, how far a contact's depth is followed
-        most_contacts
-            longer lists of contacts are cut, arbitrarily; `Answer.contacts_found` still has their number
+            mm: maximum depth of a contact
+        max_contacts
+            cuts longer lists of contacts arbitrarily; `Count.contacts_found` keeps their number
         counters
-            counts what a device did for the projection "conservative": `Answer.counters`
+            counts the work of a device for the projection "certified": `Count.counters`
         progress
             a function of (done, all), a bar of tqdm, or tqdm itself
 
-        Raises InvalidArgumentError for shapes, NaN, and poses that are not affine (the first one is named).
+        Raises InvalidArgumentError for shapes, NaN, and poses that are not affine (naming the first one).
         """
         options: dict[str, Any] = {}
         if triangles:
@@ -213,14 +287,11 @@ class Scene(Measuring):
             options["bounds"] = True
         if labels:
             options["labels"] = True
-        if yes_no:
-            options["yes_no"] = True
-        if projection != "conservative":
+        if stop_at_first:
+            options["stop_at_first"] = True
+        if projection != "certified":
             options["projection"] = projection
-        if method == "auto":  # the certified projection has one on a device, and the host has one
-            if self._device is not None and projection != "conservative":
-                options["method"] = self._device.fastest_method()
-        elif method is not None:
+        if method not in (None, "auto"):
             options["method"] = method
         if filter is not None:
             options["filter"] = filter
@@ -231,11 +302,11 @@ class Scene(Measuring):
             options["resolution"] = number(resolution, "resolution")
         if samples_per_voxel is not _SAMPLES_PER_VOXEL:
             options["samples_per_voxel"] = whole_number(samples_per_voxel, "samples_per_voxel", 1,
-                                                        core.MOST_SAMPLES_PER_VOXEL)
+                                                        core.MAX_SAMPLES_PER_VOXEL)
         if max_depth is not _MAX_DEPTH:
             options["max_depth"] = number(max_depth, "max_depth")
-        if most_contacts is not _MOST_CONTACTS:
-            options["most_contacts"] = whole_number(most_contacts, "most_contacts")
+        if max_contacts is not _MAX_CONTACTS:
+            options["max_contacts"] = whole_number(max_contacts, "max_contacts")
         if overestimate:
             options["overestimate"] = True
         if counters:
@@ -245,11 +316,25 @@ class Scene(Measuring):
                 raise TypeError(f"view is a {type(view).__name__}; a voxtact.View is needed")
             matrix, width, height = view
             options["view"] = (numbers(matrix, "clip_from_world"), whole_number(width, "width", 1), whole_number(height, "height", 1))
-        meshes, matrices = asked(mesh, poses)
+        meshes, matrices = asked(mesh, poses, self._volume)
         if progress is None:
-            return Answer(self._core.detect(meshes, matrices, options, None), self)
-        with told(progress, pairs_in(meshes, matrices)) as tell:
-            return Answer(self._core.detect(meshes, matrices, options, tell), self)
+            tables = self._core.count(meshes, matrices, options, None)
+        else:
+            with told(progress, pairs_in(meshes, matrices)) as tell:
+                tables = self._core.count(meshes, matrices, options, tell)
+        if not self._warned and not tables.touches():
+            self._warn_of_enclosed(len(tables), mesh, matrices)
+        return Count(tables, self)
+
+    def _warn_of_enclosed(self, pairs: int, mesh: Any, poses: Any) -> None:
+        """Warns once per scene where the first pose of a mesh encloses an opaque region that it does not touch."""
+        if not pairs or not isinstance(mesh, Mesh):
+            return
+        place = enclosed(self._volume, self.opacity, self.threshold, mesh, poses.reshape(-1, 4, 4)[0])
+        if place is not None:
+            self._warned = True
+            warnings.warn(f"{mesh.name} encloses an opaque region at {place.round(2).tolist()}, which its surface does not touch; "
+                          "ask overlap() for the volume inside", stacklevel=3)
 
     def plan(self, target: npt.ArrayLike, *, avoid: Sequence[Union[int, str]] = (), avoid_opacity: Opacity = None,
              avoid_volume: Any = None, needle: Optional[tuple[float, float]] = None, mesh: Optional[Mesh] = None,
@@ -257,25 +342,25 @@ class Scene(Measuring):
              entries: int = core.DEFAULT_PLAN_ENTRIES, entry_label: Union[None, int, str] = None,
              entry_radius: Optional[float] = None, border_entries: bool = False, margin: float = 0.0,
              max_length: Optional[float] = None, max_angle: Optional[float] = None,
-             tolerance: float = core.DEFAULT_PLAN_TOLERANCE, maximum: float = core.DEFAULT_PLAN_MAXIMUM,
-             most_steps: int = core.DEFAULT_PLAN_STEPS, triangle_clearances: bool = False) -> Plan:
-        """Which straight paths to a target keep clear of what must not be touched: a `Plan` with a row for each entry.
+             tolerance: float = core.DEFAULT_PLAN_TOLERANCE, max: float = core.DEFAULT_PLAN_MAX,
+             max_steps: int = core.DEFAULT_PLAN_STEPS, triangle_distances: bool = False) -> Plan:
+        """Finds straight paths to a target that avoid obstacles: a `Plan` with a row for each entry.
 
-        An instrument goes straight from an entry to the target, its axis on that line, and is certain to keep its
-        distance all the way, or not.
+        An instrument moves straight from an entry to the target, its axis on that line. Its distance from the obstacles
+        on the way is certified.
 
         target
-            (3,): where the tip goes, LPS, mm
+            (3,): end of the tip, LPS, mm
         avoid
             labels that must not be touched, by number or name, opaque or not
         avoid_opacity, avoid_volume
-            what must not be touched besides: all that is opaque under these points, in this volume (None: the scene's)
+            further obstacle: all that is opaque under these points of opacity, in this volume (None: the scene's)
         needle
             (diameter, length), mm: round and solid, with round ends; 2 mm by 200 mm where there is no mesh either
         mesh, tip, axis
             instead of a needle: its tip, and the direction from there to where it is held, in its coordinates
         entries
-            directions from the target, evenly spread: the least 10 n^2 + 2 that is no fewer
+            minimum number of directions from the target, evenly spread; rounded up to 10 n^2 + 2
         entry_label, entry_radius
             entries are on the outside of this label, or all so far from the target, mm; None: on the outside of what is
             opaque in the scene
@@ -283,24 +368,24 @@ class Scene(Measuring):
             paths may begin where the image ends within what is opaque, or within the label, too: there it is the image
             that was cut, as a scan of a head is at the neck
         margin
-            mm that a safe path keeps from all that is to be avoided
+            mm: minimum distance of a safe path from all obstacles
         max_length, max_angle
-            mm; degrees between a path and the normal of the entries' surface: paths beyond are left out
-        tolerance, maximum, most_steps
-            mm, how near to each other the bounds of a clearance are brought; mm, what is farther is not measured; a path
-            that takes more steps is left with the bounds that it has
-        triangle_clearances
-            how much every path from a whole triangle keeps, too, of a needle: `Plan.triangle_clearance`
+            mm; degrees between a path and the normal of the entries' surface: longer and steeper paths are left out
+        tolerance, max, max_steps
+            mm: stops when upper - lower is at most this; mm: stops when lower reaches this; iteration limit per path
+        triangle_distances
+            the distance of all paths from each triangle, too, of a needle: `Plan.triangle_distance`
 
-        The host engine plans, also for scenes on a device. Whether the target is inside of the volume is not asked.
+        The host engine plans, also for scenes on a device. The target may be outside of the volume.
         """
         wish = plan_options(self._labels, avoid=avoid, avoid_opacity=avoid_opacity, avoid_volume=avoid_volume, needle=needle, mesh=mesh,
                             tip=tip, axis=axis, entries=entries, entry_label=entry_label, entry_radius=entry_radius,
                             border_entries=border_entries, margin=margin, max_length=max_length, max_angle=max_angle,
-                            tolerance=tolerance, maximum=maximum, most_steps=most_steps, triangle_clearances=triangle_clearances)
+                            tolerance=tolerance, max=max, max_steps=max_steps, triangle_distances=triangle_distances)
         avoided = None if avoid_volume is None else read_volume(avoid_volume)._core
         return Plan(self._core.plan(numbers(target, "target"), wish, avoided, points(avoid_opacity),
-                                    self.domain if avoided is None else None), self._labels, bool(triangle_clearances))
+                                    self.domain if avoided is None else None),
+                    self._labels, bool(wish["avoid"]), bool(triangle_distances))
 
     # Pictures
 
@@ -341,7 +426,7 @@ class Scene(Measuring):
             rest in blue; "triangles": those that touch for certain, or those of `triangles`; "plain": nothing
         triangles
             chosen triangles: numbers, of one mesh at all its poses; or rows with `pair` and `triangle`, as
-            `Answer.triangles` of the same meshes and poses has them
+            `Count.triangles` of the same meshes and poses has them
         through
             0 to 1: how much of what is painted is seen through the volume before it; None: 0.8, of "discarded" 1
         mesh_colours
@@ -351,12 +436,12 @@ class Scene(Measuring):
             size, view = (view.width, view.height), view.clip_from_world
         meshes, matrices = None, None
         if mesh is not None:
-            meshes, matrices = asked(mesh, np.eye(4) if pose is None and isinstance(mesh, Mesh) else pose)
+            meshes, matrices = asked(mesh, np.eye(4) if pose is None and isinstance(mesh, Mesh) else pose, self._volume)
         elif pose is not None:
             raise InvalidArgumentError("pose is about a mesh, and there is none")
         count = 0 if meshes is None else 1 if matrices is not None else len(meshes)
         if show == "triangles" and triangles is None:
-            triangles = () if mesh is None else self.detect(mesh, matrices, triangles=True).triangles
+            triangles = () if mesh is None else self.count(mesh, matrices, triangles=True).triangles
         options = picture_options(0 if meshes is None else pairs_in(meshes, matrices), count, size=whole(size, 2, "size"),
                                   view=view, preset=preset, colours=colours, background=background, lighting=lighting,
                                   show=show, through=through, triangles=triangles, mesh_colours=mesh_colours, clip=clip,
@@ -371,10 +456,10 @@ class Scene(Measuring):
         except Error:
             return None
 
-    # Its end
+    # End
 
     def close(self) -> None:
-        """Frees what it holds, on the host and on the device; whatever is asked later is refused (NotReadyError)."""
+        """Frees memory on the host and on the device; later queries raise NotReadyError."""
         self._closed = True
         self._core.close()
 

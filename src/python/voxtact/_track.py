@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A mesh that moves by little from call to call."""
+"""Distances of a mesh that moves in small steps."""
 from __future__ import annotations
 
 from typing import NamedTuple, NoReturn
@@ -12,31 +12,31 @@ from ._mesh import Mesh
 
 
 class Tracked(NamedTuple):
-    """What is known of a mesh at one of its poses: of `Tracker.update`."""
+    """The answer of `Tracker.update`: certified bounds at one pose."""
 
     #: it certainly touches
-    hit: bool
-    #: rounding decides whether it touches
-    possible: bool
-    #: mm: no point of the surface is nearer to what is opaque; 0 where it touches
-    lo: float
-    #: mm: some point of the surface is as near; infinite where that is not known
-    hi: float
-    #: the volume was looked into; False: it follows from what was known before
+    touches: bool
+    #: rounding leaves it undecided
+    undecided: bool
+    #: mm: lower bound of the distance; 0 where it touches
+    lower: float
+    #: mm: upper bound; infinite where it is unknown
+    upper: float
+    #: the volume was searched; False: the answer follows from earlier ones
     searched: bool
 
     @property
     def free(self) -> bool:
         """It certainly does not touch."""
-        return not (self.hit or self.possible)
+        return not (self.touches or self.undecided)
 
 
 class Tracker:
-    """A mesh that is moved by little from call to call, as under a hand. `Scene.tracker` makes one.
+    """A mesh that moves in small steps, as by hand. `Scene.tracker` makes one.
 
-    While the mesh has moved by no more than it was known to be clear, an answer follows from the one before and takes
-    microseconds. Whether it touches never depends on the calls before; how near to each other the bounds are does.
-    Changes of the scene are seen. Calls wait for other calls of the scene.
+    While the mesh has moved by less than its known distance, an answer follows from the one before, without a search.
+    Verdicts never depend on earlier calls; the width of the bounds does. Updates use changes of the scene. Calls wait
+    for other calls of the scene.
     """
 
     __slots__ = ("_core", "_mesh")
@@ -54,9 +54,9 @@ class Tracker:
         return self._mesh
 
     def update(self, pose: npt.ArrayLike) -> Tracked:
-        """The mesh is at another pose, (4,4), world_from_object: what is known of it there.
+        """Moves the mesh to a pose, (4,4), world_from_object, and returns its bounds there.
 
-        Refuses poses that are not affine or not finite; then nothing has moved.
+        Refuses poses that are not affine or not finite; the mesh then stays.
         """
         return Tracked(*self._core.update(numbers(pose, "pose")))
 

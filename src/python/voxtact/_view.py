@@ -7,12 +7,12 @@ from typing import NamedTuple, Optional, Union
 import numpy as np
 import numpy.typing as npt
 
-from . import _core as core
 from ._arguments import Poses, whole
 from ._common import numbers
 from ._mesh import Mesh
 from ._picture import view_options
 from ._volume import Volume
+from ._wish import view_from as clip_from_world
 
 
 class View(NamedTuple):
@@ -29,12 +29,12 @@ def view_from(view: Union[str, tuple[float, float]], volume: Volume, mesh: Optio
               poses: Optional[Poses] = None, *, size: tuple[int, int] = (512, 512)) -> View:
     """A `View` that frames a volume, as `Scene.picture` does: orthographic, with square pixels.
 
-        scene.detect(knife, poses, projection="view", view=vx.view_from("left", head, knife, poses))
+        scene.count(knife, poses, projection="view", view=vx.view_from("left", head, knife, poses))
 
     view
         "front", "back", "left", "right", "top", "bottom"; or (azimuth, elevation) in degrees
     mesh, poses
-        what is between the near and the far plane, too: the projection "view" counts nothing beyond them
+        also between the near and the far plane: the projection "view" counts nothing beyond them
     size
         (width, height), pixels
     """
@@ -44,4 +44,4 @@ def view_from(view: Union[str, tuple[float, float]], volume: Volume, mesh: Optio
         raise TypeError(f"view is a {type(view).__name__}; a name or (azimuth, elevation) is needed")
     width, height = whole(size, 2, "size")
     matrices = None if mesh is None else np.eye(4) if poses is None else numbers(poses, "poses")
-    return View(core.view_from(view_options(view), volume._core, None if mesh is None else mesh._core, matrices, width, height), width, height)
+    return View(clip_from_world(view_options(view), volume._core, None if mesh is None else mesh._core, matrices, width, height), width, height)

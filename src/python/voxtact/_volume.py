@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from typing import Any, Literal, NoReturn, Optional, Union
+from typing import Any, Literal, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -15,11 +15,10 @@ from ._common import (
     LPS_FROM_RAS,
     Space,
     array_of,
-    check_space,
+    checked_space,
     encoded,
     encoded_text,
     exact_in_float32,
-    not_pickled,
     numbers,
     whole_number,
 )
@@ -35,8 +34,9 @@ class Volume:
     must not change as long as scenes are made of it.
     """
 
-    __slots__ = ("_core",)
+    __slots__ = ("_core", "_assumed")
     _core: core.Volume
+    _assumed: bool  # that the affine leads to RAS: nobody has said so
 
     def __init__(self) -> None:
         raise TypeError("voxtact.read_volume() makes volumes: from a file, an array with affine=, or an image object")
@@ -45,6 +45,7 @@ class Volume:
     def _of(cls, made_of: core.Volume) -> Volume:
         made = cls.__new__(cls)
         made._core = made_of
+        made._assumed = False
         return made
 
     @property
@@ -91,7 +92,7 @@ class Volume:
     @property
     def bounds(self) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
         """The least and the greatest corner of the world box around it, out to the outermost voxels' faces: LPS, mm."""
-        return core.volume_box(self._core)
+        return self._core.box
 
     @property
     def range(self) -> tuple[float, float]:
@@ -112,30 +113,35 @@ class Volume:
         """Writes NIfTI-1 (.nii, .nii.gz), NRRD (.nrrd) or MetaImage (.mha), by the ending."""
         self._core.write(encoded(path))
 
+    def __array__(self, dtype: Any = None, copy: Optional[bool] = None) -> npt.NDArray[Any]:
+        """For `np.asarray(volume)`: `array`."""
+        return np.array(self.array, dtype) if copy else np.asarray(self.array, dtype)
+
     def __repr__(self) -> str:
         x, y, z = self._core.size
         spacing = " x ".join(f"{step:.4g}" for step in self.spacing)
         lo, hi = self.range
         return f"<voxtact.Volume {self.name!r}: {x} x {y} x {z} {self._core.type}, {spacing} mm, values {lo:g} to {hi:g}>"
 
-    def __reduce__(self) -> NoReturn:
-        not_pickled(self)
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _volume_again, (self.array, self.spacing, self.origin, self.direction, self.name, self.notes)
 
 
 # Arrays of voxels
 
 
+def _volume_again(voxels: npt.NDArray[Any], spacing: npt.NDArray[np.float64], origin: npt.NDArray[np.float64],
+                  direction: npt.NDArray[np.float64], name: str, notes: tuple[str, ...]) -> Volume:
+    """What pickle calls."""
+    return Volume._of(core.Volume.wrap(voxels, spacing, origin, direction, encoded_text(name, "name"),
+                                       [encoded_text(note, "a note") for note in notes]))
+
+
 def _in_z_y_x(array: npt.NDArray[Any], axes: Optional[str]) -> npt.NDArray[Any]:
-    """The same array, indexed [z, y, x]. Which axis is which is said, not guessed."""
+    """The same array, indexed [z, y, x]. What an index means is said, and does not depend on the order in memory."""
     if axes not in (None, "zyx", "xyz"):
         raise InvalidArgumentError(f"axes={axes!r} is neither 'zyx' nor 'xyz'")
-    if axes is None:
-        steps = [abs(step) for step, length in zip(array.strides, array.shape) if length > 1]
-        if steps != sorted(steps, reverse=True):
-            raise InvalidArgumentError(
-                f"the array of shape {array.shape} is not in C order, so its last index may not be x: say "
-                "axes='xyz' if it is indexed [x, y, z], as nibabel's arrays are, or axes='zyx' if [z, y, x]")
-    return array.T if axes == "xyz" else array
+    return array if axes == "zyx" else array.T
 
 
 def _named_axes(source: Any, axes: Optional[str]) -> Optional[str]:
@@ -199,8 +205,7 @@ def _grid(affine: npt.ArrayLike, space: Space) -> tuple[npt.NDArray[np.float64],
         raise InvalidArgumentError("affine has an element that is not finite")
     if (matrix[3] != (0, 0, 0, 1)).any():
         raise InvalidArgumentError(f"affine has the last row {matrix[3].tolist()}; 0 0 0 1 is needed")
-    check_space(space, "space")
-    if space == "ras":
+    if checked_space(space, "space") == "ras":
         matrix = LPS_FROM_RAS @ matrix
     with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
         spacing = np.sqrt((matrix[:3, :3] ** 2).sum(axis=0))
@@ -271,8 +276,9 @@ def _of_nibabel(image: Any, frame: Optional[int]) -> Volume:
         notes.append(f"lengths converted from {units} to mm")
     name = image.get_filename() if hasattr(image, "get_filename") else None
     volume = _volume_of_array(array, affine, "ras", "xyz", os.path.basename(name or "nibabel image"), notes)
-    if volume._core.shear > core.MOST_SHEAR:  # as of the file
-        raise InvalidArgumentError(f"the image's affine shears it by {volume._core.shear:.3g} degrees (its axes are not at "
+    shear, most = volume._core.shear()
+    if shear > most:  # as of the file
+        raise InvalidArgumentError(f"the image's affine shears it by {shear:.3g} degrees (its axes are not at "
                                    "right angles); resample it to an upright grid, or hand over its array with affine=")
     return volume
 
@@ -351,13 +357,14 @@ def read_volume(source: Any, *, affine: Optional[npt.ArrayLike] = None, space: O
         - a path: NIfTI, NRRD, MetaImage, or a folder with a DICOM series; ``"builtin:head:64"`` and the other names of
           the program's builtins. `frame` chooses one of a 4D file, `series` a SeriesInstanceUID.
         - an array of three dimensions with `affine`, (4,4): it takes voxel numbers (x, y, z, 1) to the world in mm, to
-          RAS as nibabel's do, or to LPS with ``space="lps"``. The array is indexed [z, y, x], in C order. One that is in
-          another order is refused until you say `axes`: "xyz" (nibabel's) or "zyx". Dimensions that are named x, y and
-          z, as xarray's may be, say it themselves; coordinates are not looked at.
+          RAS as nibabel's do, or to LPS with ``space="lps"``. The array is indexed [x, y, z], as nibabel's are; with
+          ``axes="zyx"`` it is indexed [z, y, x], as `Volume.array` is. Its order in memory does not matter. Dimensions
+          that are named x, y and z, as xarray's may be, say it themselves; coordinates are not looked at.
         - a nibabel image (4D: with `frame`), an image of SimpleITK or itk, or a vtkImageData (which knows no space: LPS,
           unless ``space="ras"``).
 
-    uint8, int16, uint16 and float32 in C order are taken without a copy, and must not change then. Other whole numbers
+    uint8, int16, uint16 and float32 with x next to each other in memory are taken without a copy, and must not change
+    then. Other whole numbers
     become int16, uint16 or, where that is exact, float32; float64 is rounded. Every copy is told in `Volume.notes`.
 
     Raises FileError, FormatError, and InvalidArgumentError, for NaN and infinite voxels too.
@@ -399,4 +406,6 @@ def read_volume(source: Any, *, affine: Optional[npt.ArrayLike] = None, space: O
     if affine is None:
         raise InvalidArgumentError("an array needs affine=, (4,4), voxel numbers (x, y, z, 1) to mm; np.eye(4) for "
                                    "voxels of 1 mm with the first one at the origin")
-    return _volume_of_array(source, affine, space or "ras", _named_axes(source, axes), "array")
+    volume = _volume_of_array(source, affine, space or "ras", _named_axes(source, axes), "array")
+    volume._assumed = space is None
+    return volume

@@ -4,6 +4,7 @@
 #include "cpu/clearance/held.h"
 #include "cpu/scenes/oracle_scenes.h"
 #include "support/contact_scenes.h"
+#include "support/host_meters.h"
 
 #include <gtest/gtest.h>
 
@@ -28,10 +29,10 @@ inline PairArea area(const Held& held, const cpu::AreaDesc& desc = {}, double th
 
 /// It is between the bounds, and these are as near to each other as was asked for.
 inline void expectArea(double wanted, const PairArea& found, double tolerance = 1e-6) {
-    EXPECT_LE(found.bounds.lo, wanted + 1e-9 * (1 + wanted));
-    EXPECT_GE(found.bounds.hi, wanted - 1e-9 * (1 + wanted));
-    EXPECT_LE(found.bounds.hi - found.bounds.lo, tolerance);
-    EXPECT_EQ(found.end, AreaEnd::Closed);
+    EXPECT_LE(found.bounds.lower, wanted + 1e-9 * (1 + wanted));
+    EXPECT_GE(found.bounds.upper, wanted - 1e-9 * (1 + wanted));
+    EXPECT_LE(found.bounds.upper - found.bounds.lower, tolerance);
+    EXPECT_EQ(found.end, StopReason::Closed);
 }
 
 /// Of all triangles at a pose, mm^2.
@@ -40,9 +41,8 @@ inline double surfaceOf(const MeshData& mesh, const Mat4& pose = identity()) {
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
         std::array<Vec3, 3> t{};
         for (std::size_t corner = 0; corner < 3; ++corner) {
-            const float* at = &mesh.positions[std::size_t{3} * mesh.indices[i + corner]];
-            t[corner] = transformPoint(
-                pose, {static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])});
+            const double* at = &mesh.positions[std::size_t{3} * mesh.indices[i + corner]];
+            t[corner] = transformPoint(pose, {at[0], at[1], at[2]});
         }
         const Vec3 a{t[1][0] - t[0][0], t[1][1] - t[0][1], t[1][2] - t[0][2]};
         const Vec3 b{t[2][0] - t[0][0], t[2][1] - t[0][1], t[2][2] - t[0][2]};

@@ -4,6 +4,7 @@
 
 #include "core/base/infinity.h"
 #include "cpu/scenes/random_scene.h"
+#include "support/host_meters.h"
 #include "voxtact/samples.h"
 
 #include <gmock/gmock.h>
@@ -35,8 +36,8 @@ TEST(Area, DoesNotDependOnItsCompany) {
         const PairArea one = area(held, {.threads = 1, .tolerance = tolerance}, scene.threshold, scene.poses[i]);
         EXPECT_EQ(alone[i].pose, i);
         for (const PairArea& other : {together[i], one}) {
-            EXPECT_EQ(alone[i].bounds.lo, other.bounds.lo) << i;
-            EXPECT_EQ(alone[i].bounds.hi, other.bounds.hi) << i;
+            EXPECT_EQ(alone[i].bounds.lower, other.bounds.lower) << i;
+            EXPECT_EQ(alone[i].bounds.upper, other.bounds.upper) << i;
             EXPECT_EQ(alone[i].end, other.end) << i;
         }
     }
@@ -50,9 +51,9 @@ TEST(Area, SeesEditsAndNewTransferFunctions) {
         const cpu::BatchItem item{&held.mesh, &held.volume, &held.function, std::span(&pose, 1)};
         return take(meter.measure({std::span(&item, 1), {}, 0.5})).pairs.at(0);
     };
-    EXPECT_EQ(measured().bounds.hi, 0);
+    EXPECT_EQ(measured().bounds.upper, 0);
     held.function = take(cpu::TransferFunction::create({byteRamp(), {0, 255}}));
-    EXPECT_EQ(measured().bounds.hi, 0);
+    EXPECT_EQ(measured().bounds.upper, 0);
     ASSERT_TRUE(held.volume.set(VoxelBox{{0, 0, 0}, {32, 32, 32}}, 255).ok());
     expectArea(60, measured());
 }
@@ -78,10 +79,10 @@ TEST(Area, OfLabelsIsCutBetweenVoxels) {
     const std::vector<double> wanted{7.5 * 4.5, 2.0 * 14, 0, 7.5 * 9.5, 7.5 * 4.5};
     for (std::size_t i = 0; i < asked.size(); ++i) {
         EXPECT_EQ(found[i].label, asked[i]);
-        EXPECT_LE(found[i].bounds.lo, wanted[i] + 1e-9) << i;
-        EXPECT_GE(found[i].bounds.hi, wanted[i] - 1e-9) << i;
-        EXPECT_LE(found[i].bounds.hi - found[i].bounds.lo, 1e-6) << i;
-        EXPECT_EQ(found[i].end, AreaEnd::Closed) << i;
+        EXPECT_LE(found[i].bounds.lower, wanted[i] + 1e-9) << i;
+        EXPECT_GE(found[i].bounds.upper, wanted[i] - 1e-9) << i;
+        EXPECT_LE(found[i].bounds.upper - found[i].bounds.lower, 1e-6) << i;
+        EXPECT_EQ(found[i].end, StopReason::Closed) << i;
     }
 }
 
@@ -97,13 +98,13 @@ TEST(Area, OfEachLabelIsMeasuredToTheTolerance) {
     const Held held(makeFlat(0, 31, 0, 31, 14.3), ball, byteRamp(), {0, 255});
     const std::vector<LabelArea> found =
         labelAreas(held, &labels, std::vector<std::int32_t>{1, 2, 3}, {.threads = 1, .tolerance = 1e-3});
-    EXPECT_EQ(found[0].bounds.hi, 0);
+    EXPECT_EQ(found[0].bounds.upper, 0);
     for (std::size_t i = 0; i < 3; ++i) {
-        EXPECT_EQ(found[i].end, AreaEnd::Closed);
-        EXPECT_LE(found[i].bounds.hi - found[i].bounds.lo, 1e-3);
+        EXPECT_EQ(found[i].end, StopReason::Closed);
+        EXPECT_LE(found[i].bounds.upper - found[i].bounds.lower, 1e-3);
     }
-    EXPECT_GT(found[1].bounds.lo, 100);
-    EXPECT_NEAR(found[1].bounds.lo, found[2].bounds.lo, 2e-3) << "the halves of a disc";
+    EXPECT_GT(found[1].bounds.lower, 100);
+    EXPECT_NEAR(found[1].bounds.lower, found[2].bounds.lower, 2e-3) << "the halves of a disc";
 }
 
 /// A plate in the face between two labels is in either, as far as can be told, and in no other.
@@ -117,11 +118,11 @@ TEST(Area, OfAPlateBetweenLabelsMayBeInEither) {
     const Held held(makeFlat(3, 13, 4, 14, 7.5), image, byteRamp(), {0, 255});
     const std::vector<LabelArea> found = labelAreas(held, &labels, std::vector<std::int32_t>{1, 2, 3});
     for (std::size_t i = 0; i < 2; ++i) {
-        EXPECT_EQ(found[i].bounds.lo, 0);
-        EXPECT_NEAR(found[i].bounds.hi, 100, 1e-6);
-        EXPECT_EQ(found[i].end, AreaEnd::Rounding);
+        EXPECT_EQ(found[i].bounds.lower, 0);
+        EXPECT_NEAR(found[i].bounds.upper, 100, 1e-6);
+        EXPECT_EQ(found[i].end, StopReason::Rounding);
     }
-    EXPECT_EQ(found[2].bounds.hi, 0);
+    EXPECT_EQ(found[2].bounds.upper, 0);
 }
 
 /// What is found of one label is the same to the last bit, whichever others are asked for, and in which order.
@@ -146,10 +147,10 @@ TEST(Area, OfALabelDoesNotDependOnTheOthers) {
         for (const LabelArea& one : some) {
             if (one.label != 77) {
                 const LabelArea& same = all[static_cast<std::size_t>(one.label)];
-                EXPECT_EQ(one.bounds.lo, same.bounds.lo);
-                EXPECT_EQ(one.bounds.hi, same.bounds.hi);
+                EXPECT_EQ(one.bounds.lower, same.bounds.lower);
+                EXPECT_EQ(one.bounds.upper, same.bounds.upper);
                 EXPECT_EQ(one.end, same.end);
-                budget += one.end == AreaEnd::Budget ? 1 : 0;
+                budget += one.end == StopReason::Budget ? 1 : 0;
             }
         }
     }
@@ -183,7 +184,7 @@ TEST(Area, RefusesWhatItCannotUse) {
     const LabelData fitting = take(makeLabels(valueRamp().view()));
     item.labels = &fitting;
     EXPECT_TRUE(meter.measureLabels(batch, one).ok());
-    const std::vector<std::int32_t> many(kMostMeasuredLabels + 1, 1);
+    const std::vector<std::int32_t> many(kMaxMeasuredLabels + 1, 1);
     EXPECT_EQ(meter.measureLabels(batch, many).error().code, ErrorCode::LimitExceeded);
     EXPECT_TRUE(take(meter.measureLabels(batch, {})).labels.empty());
     item.mesh = nullptr;
@@ -191,9 +192,9 @@ TEST(Area, RefusesWhatItCannotUse) {
 }
 
 TEST(Area, NamesItsEnds) {
-    EXPECT_STREQ(toString(AreaEnd::Closed), "closed");
-    EXPECT_STREQ(toString(AreaEnd::Rounding), "rounding");
-    EXPECT_STREQ(toString(AreaEnd::Budget), "budget");
+    EXPECT_STREQ(toString(StopReason::Closed), "closed");
+    EXPECT_STREQ(toString(StopReason::Rounding), "rounding");
+    EXPECT_STREQ(toString(StopReason::Budget), "budget");
 }
 
 } // namespace

@@ -3,10 +3,11 @@
 #include "cpu/area/area_held.h"
 
 #include "cpu/scenes/certified_scenes.h"
+#include "cpu/scenes/clearance_cases.h"
 #include "cpu/scenes/held_scene.h"
-#include "cpu/scenes/margin_cases.h"
 #include "cpu/scenes/random_labels.h"
 #include "oracle/area_oracle.h"
+#include "support/host_meters.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -39,9 +40,8 @@ Surface surfaceWithDoubt(const OracleScene& scene) {
         std::array<Vec3, 3> t{};
         double largest = 0;
         for (std::size_t corner = 0; corner < 3; ++corner) {
-            const float* at = &scene.mesh.positions[std::size_t{3} * scene.mesh.indices[i + corner]];
-            t[corner] = transformPoint(scene.world_from_object, {static_cast<double>(at[0]), static_cast<double>(at[1]),
-                                                                 static_cast<double>(at[2])});
+            const double* at = &scene.mesh.positions[std::size_t{3} * scene.mesh.indices[i + corner]];
+            t[corner] = transformPoint(scene.world_from_object, {at[0], at[1], at[2]});
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 largest = std::max({largest, std::abs(t[corner][axis]), std::abs(scene.world_from_object[12 + axis])});
             }
@@ -54,18 +54,18 @@ Surface surfaceWithDoubt(const OracleScene& scene) {
     return out;
 }
 
-void expectBetween(const AreaBounds& says, const OracleArea& truth, double doubt) {
-    EXPECT_LE(says.lo, says.hi);
-    EXPECT_LE(says.lo, truth.hi + doubt) << "not so much: " << says.lo << " to " << says.hi << ", truth " << truth.lo
+void expectBetween(const Bounds& says, const OracleArea& truth, double doubt) {
+    EXPECT_LE(says.lower, says.upper);
+    EXPECT_LE(says.lower, truth.hi + doubt) << "not so much: " << says.lower << " to " << says.upper << ", truth " << truth.lo
                                          << " to " << truth.hi;
-    EXPECT_GE(says.hi, truth.lo - doubt) << "more than that: " << says.lo << " to " << says.hi << ", truth " << truth.lo
+    EXPECT_GE(says.upper, truth.lo - doubt) << "more than that: " << says.lower << " to " << says.upper << ", truth " << truth.lo
                                          << " to " << truth.hi;
 }
 
 TEST(AreaOracle, TheTruthIsBetweenTheBounds) {
     const std::uint64_t seed = testSeed();
     cpu::Detector detector =
-        take(cpu::Detector::create({.threads = 1, .stopAtFirst = true, .projection = Projection::Conservative}));
+        take(cpu::Detector::create({.threads = 1, .stopAtFirst = true, .projection = Projection::Certified}));
     std::map<std::string, std::size_t> ends;
     std::size_t touching = 0;
     std::size_t sharp = 0; // the oracle's bounds are near to each other, too
@@ -80,14 +80,14 @@ TEST(AreaOracle, TheTruthIsBetweenTheBounds) {
         const PairArea says = take(meter.measure(held.batch)).pairs.at(0);
         const OracleArea truth = take(oracle::areaOracle(c.scene.pair()));
         expectBetween(says.bounds, truth, surface.doubt);
-        EXPECT_LE(says.bounds.lo, surface.area + surface.doubt);
+        EXPECT_LE(says.bounds.lower, surface.area + surface.doubt);
         const PairAnswer touch = take(detector.detect(held.batch)).pairs.at(0);
-        EXPECT_TRUE(touch.hit || touch.possible || says.bounds.hi == 0);
-        EXPECT_TRUE(says.bounds.lo == 0 || touch.hit || touch.possible);
-        EXPECT_EQ(says.end == AreaEnd::Closed, says.bounds.hi - says.bounds.lo <= tolerance);
+        EXPECT_TRUE(touch.hit || touch.possible || says.bounds.upper == 0);
+        EXPECT_TRUE(says.bounds.lower == 0 || touch.hit || touch.possible);
+        EXPECT_EQ(says.end == StopReason::Closed, says.bounds.upper - says.bounds.lower <= tolerance);
         ++ends[toString(says.end)];
-        touching += says.bounds.lo > 0 ? 1 : 0;
-        sharp += says.bounds.lo > 0 && truth.hi - truth.lo < 0.1 * truth.hi ? 1 : 0;
+        touching += says.bounds.lower > 0 ? 1 : 0;
+        sharp += says.bounds.lower > 0 && truth.hi - truth.lo < 0.1 * truth.hi ? 1 : 0;
         ASSERT_FALSE(HasFailure());
     }
     std::cout << touching << " have an area, " << sharp << " of these are known to a tenth; closed " << ends["closed"]
@@ -113,27 +113,27 @@ TEST(AreaOracle, TheTruthOfLabelsIsBetweenTheirBounds) {
         const double tolerance = std::max(1e-3 * surface.area, 1e-9);
         cpu::AreaMeter meter = take(cpu::AreaMeter::create({.threads = 1, .tolerance = tolerance}));
         const std::vector<LabelArea> says = take(meter.measureLabels(held.batch, asked)).labels;
-        const AreaBounds whole = take(meter.measure(held.batch)).pairs.at(0).bounds;
+        const Bounds whole = take(meter.measure(held.batch)).pairs.at(0).bounds;
         ASSERT_EQ(says.size(), asked.size());
-        AreaBounds all;
+        Bounds all;
         for (std::size_t i = 0; i < asked.size(); ++i) {
             SCOPED_TRACE("case " + std::to_string(number) + ", label " + std::to_string(asked[i]));
             EXPECT_EQ(says[i].label, asked[i]);
             expectBetween(says[i].bounds, take(oracle::labelAreaOracle(c.scene.pair(), labels, asked[i])),
                           surface.doubt);
-            touching += says[i].bounds.lo > 0 ? 1 : 0;
-            closed += says[i].end == AreaEnd::Closed ? 1 : 0;
+            touching += says[i].bounds.lower > 0 ? 1 : 0;
+            closed += says[i].end == StopReason::Closed ? 1 : 0;
             if (i < 4) {
-                all.lo += says[i].bounds.lo;
-                all.hi += says[i].bounds.hi;
+                all.lower += says[i].bounds.lower;
+                all.upper += says[i].bounds.upper;
             }
         }
-        EXPECT_EQ(says[4].bounds.hi, 0); // no voxel has it
-        EXPECT_EQ(says[5].bounds.lo, says[0].bounds.lo);
-        EXPECT_EQ(says[5].bounds.hi, says[0].bounds.hi);
+        EXPECT_EQ(says[4].bounds.upper, 0); // no voxel has it
+        EXPECT_EQ(says[5].bounds.lower, says[0].bounds.lower);
+        EXPECT_EQ(says[5].bounds.upper, says[0].bounds.upper);
         // Everything has one of the labels.
-        EXPECT_LE(all.lo, whole.hi + surface.doubt);
-        EXPECT_GE(all.hi, whole.lo - surface.doubt);
+        EXPECT_LE(all.lower, whole.upper + surface.doubt);
+        EXPECT_GE(all.upper, whole.lower - surface.doubt);
         ASSERT_FALSE(HasFailure());
     }
     std::cout << touching << " have an area, " << closed << " closed\n";

@@ -4,6 +4,7 @@
 
 #include "core/base/infinity.h"
 #include "cpu/scenes/random_scene.h"
+#include "support/host_meters.h"
 #include "voxtact/samples.h"
 
 #include <iostream>
@@ -17,8 +18,8 @@ MeshData quartered(const MeshData& mesh) {
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
         std::array<Vec3, 3> t{};
         for (std::size_t corner = 0; corner < 3; ++corner) {
-            const float* at = &mesh.positions[std::size_t{3} * mesh.indices[i + corner]];
-            t[corner] = {static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])};
+            const double* at = &mesh.positions[std::size_t{3} * mesh.indices[i + corner]];
+            t[corner] = {at[0], at[1], at[2]};
         }
         const auto half = [](const Vec3& a, const Vec3& b) {
             return Vec3{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
@@ -52,7 +53,7 @@ TEST(Area, OfASheetIsBetweenItsFaces) {
     expectArea((110 - 90) / 8.0 * 10, area({plate, valueRamp(), sheet, kEntries}, {.tolerance = 1e-6}));
 }
 
-/// More intervals in a cell than are looked at together.
+/// More intervals in a cell than are examined together.
 TEST(Area, OfAComb) {
     std::vector<ControlPoint> comb;
     double share = 0;
@@ -86,7 +87,7 @@ TEST(Area, OfWhatIsOpaqueAllOverIsTheSurfaceInTheVolume) {
     // A plate that is half outside.
     const Held out(makeFlat(-10, 10, 5, 15, 8.3), makeBytes(unitGrid(1), [](auto...) { return 255; }), byteRamp(),
                    {0, 255});
-    EXPECT_EQ(area(out).bounds.hi, 0);
+    EXPECT_EQ(area(out).bounds.upper, 0);
     Grid grid;
     grid.size = {20, 20, 20};
     const Held half(makeFlat(-10, 10, 5, 15, 8.3), makeBytes(grid, [](auto...) { return 255; }), byteRamp(), {0, 255});
@@ -120,16 +121,16 @@ TEST(Area, IsTheSameHoweverTheSurfaceIsCutAndWhereverTheWorldIs) {
                             scene.threshold, at)
                     .bounds;
             };
-            const AreaBounds as = measured(scene.mesh, scene.volume, pose);
-            const AreaBounds cut = measured(quartered(quartered(scene.mesh)), scene.volume, pose);
-            const AreaBounds elsewhere = measured(scene.mesh, moved(scene.volume, motion), multiply(motion, pose));
+            const Bounds as = measured(scene.mesh, scene.volume, pose);
+            const Bounds cut = measured(quartered(quartered(scene.mesh)), scene.volume, pose);
+            const Bounds elsewhere = measured(scene.mesh, moved(scene.volume, motion), multiply(motion, pose));
             // A vertex that is a float is off its place by a ten-millionth of the mesh.
             const double slack = 1e-5 * surfaceOf(scene.mesh);
-            for (const AreaBounds& other : {cut, elsewhere}) {
-                EXPECT_LE(as.lo, other.hi + slack);
-                EXPECT_GE(as.hi, other.lo - slack);
+            for (const Bounds& other : {cut, elsewhere}) {
+                EXPECT_LE(as.lower, other.upper + slack);
+                EXPECT_GE(as.upper, other.lower - slack);
             }
-            apart += as.lo > 0 ? 1 : 0;
+            apart += as.lower > 0 ? 1 : 0;
         }
     }
     std::cout << apart << " have an area\n";
@@ -177,17 +178,17 @@ TEST(Area, OfAPlateInAFaceOfTheImageIsLeftOpen) {
                 const Held held(makeRectangle(corner(3, 4), corner(13, 4), corner(13, 14), corner(3, 14)), image,
                                 byteRamp(), {0, 255});
                 const PairArea found = area(held);
-                EXPECT_EQ(found.bounds.lo, 0);
-                EXPECT_GE(found.bounds.hi, 100);
-                EXPECT_LE(found.bounds.hi, 100.001);
-                EXPECT_EQ(found.end, AreaEnd::Rounding);
+                EXPECT_EQ(found.bounds.lower, 0);
+                EXPECT_GE(found.bounds.upper, 100);
+                EXPECT_LE(found.bounds.upper, 100.001);
+                EXPECT_EQ(found.end, StopReason::Rounding);
                 Vec3 inward{};
                 inward[axis] = at < 0 ? 1e-6 : -1e-6;
                 expectArea(100, area(held, {.tolerance = 1e-6}, 0.5, translation(inward)));
                 for (double& along : inward) {
                     along = -along;
                 }
-                EXPECT_EQ(area(held, {}, 0.5, translation(inward)).bounds.hi, 0);
+                EXPECT_EQ(area(held, {}, 0.5, translation(inward)).bounds.upper, 0);
             }
         }
     }
@@ -199,9 +200,9 @@ TEST(Area, OfAPlateInAFaceOfTheImageThatIsPartlyOpaqueIsLeftOpen) {
     const std::vector<ControlPoint> points{{90, 0}, {110, 1}};
     for (const double z : {-0.5, 31.5}) {
         const PairArea found = area({makeFlat(2, 22, 3, 13, z), valueRamp(), points, kEntries}, {.tolerance = 1e-3});
-        EXPECT_EQ(found.bounds.lo, 0);
-        EXPECT_NEAR(found.bounds.hi, 9.5 * 10, 1e-3);
-        EXPECT_EQ(found.end, AreaEnd::Rounding);
+        EXPECT_EQ(found.bounds.lower, 0);
+        EXPECT_NEAR(found.bounds.upper, 9.5 * 10, 1e-3);
+        EXPECT_EQ(found.end, StopReason::Rounding);
     }
 }
 
@@ -243,12 +244,12 @@ TEST(Area, OfPlatesHardlyWithinTheImage) {
         offset[axis] = far;
         const Mat4 pose = translation(offset);
         const cpu::BatchItem item{&mesh, &volume, &ramp, std::span(&pose, 1)};
-        const AreaBounds found = take(meter.measure({std::span(&item, 1), {}, 0.5})).pairs.at(0).bounds;
+        const Bounds found = take(meter.measure({std::span(&item, 1), {}, 0.5})).pairs.at(0).bounds;
         const double all = side((axis + 1) % 3) * side((axis + 2) % 3);
         const double truth = inside ? all : 0;
-        EXPECT_LE(found.lo, truth * (1 + 1e-15)) << round;
-        EXPECT_GE(found.hi, truth * (1 - 1e-15)) << round;
-        open += found.hi - found.lo > 0.5 * all ? 1 : 0;
+        EXPECT_LE(found.lower, truth * (1 + 1e-15)) << round;
+        EXPECT_GE(found.upper, truth * (1 - 1e-15)) << round;
+        open += found.upper - found.lower > 0.5 * all ? 1 : 0;
     }
     std::cout << open << " were left open\n";
     EXPECT_GT(open, 0U);
@@ -291,17 +292,17 @@ TEST(Area, OfSmallTrianglesFarFromTheirOrigin) {
             continue;
         }
         const Held held(oneTriangle(corners[0], corners[1], corners[2]), image, byteRamp(), {0, 255});
-        const AreaBounds found = area(held, {.threads = 1}, 0.5, pose).bounds;
-        EXPECT_LE(static_cast<long double>(found.lo), truth * (1 + 1e-17L));
-        EXPECT_GE(static_cast<long double>(found.hi), truth * (1 - 1e-17L));
-        EXPECT_LE(found.hi - found.lo, 1e-6);
+        const Bounds found = area(held, {.threads = 1}, 0.5, pose).bounds;
+        EXPECT_LE(static_cast<long double>(found.lower), truth * (1 + 1e-17L));
+        EXPECT_GE(static_cast<long double>(found.upper), truth * (1 - 1e-17L));
+        EXPECT_LE(found.upper - found.lower, 1e-6);
     }
 }
 
 TEST(Area, OfWhatIsTouchedAtAPointIsNothing) {
     const Held held(makeFlat(2, 12.4, 3, 9, 8.75), valueRamp(), std::vector<ControlPoint>{{90, 0}, {110, 1}}, kEntries);
-    EXPECT_EQ(area(held).bounds.hi, 0);
-    EXPECT_EQ(area(held).end, AreaEnd::Closed);
+    EXPECT_EQ(area(held).bounds.upper, 0);
+    EXPECT_EQ(area(held).end, StopReason::Closed);
 }
 
 TEST(Area, IsTrueWithFewSteps) {
@@ -318,12 +319,12 @@ TEST(Area, IsTrueWithFewSteps) {
         for (const std::uint64_t steps : {1ULL, 3ULL, 100ULL}) {
             const std::vector<PairArea> rough = measured(steps);
             for (std::size_t i = 0; i < best.size(); ++i) {
-                EXPECT_LE(rough[i].bounds.lo, best[i].bounds.hi);
-                EXPECT_GE(rough[i].bounds.hi, best[i].bounds.lo);
-                EXPECT_GE(rough[i].bounds.hi - rough[i].bounds.lo,
-                          0.99 * (best[i].bounds.hi - best[i].bounds.lo) - fine);
-                EXPECT_EQ(rough[i].end == AreaEnd::Closed, rough[i].bounds.hi - rough[i].bounds.lo <= fine);
-                budget += rough[i].end == AreaEnd::Budget ? 1 : 0;
+                EXPECT_LE(rough[i].bounds.lower, best[i].bounds.upper);
+                EXPECT_GE(rough[i].bounds.upper, best[i].bounds.lower);
+                EXPECT_GE(rough[i].bounds.upper - rough[i].bounds.lower,
+                          0.99 * (best[i].bounds.upper - best[i].bounds.lower) - fine);
+                EXPECT_EQ(rough[i].end == StopReason::Closed, rough[i].bounds.upper - rough[i].bounds.lower <= fine);
+                budget += rough[i].end == StopReason::Budget ? 1 : 0;
             }
         }
     }
@@ -353,11 +354,11 @@ TEST(Area, HoldsBeforeAPartIsDivided) {
         held.mesh = take(cpu::Mesh::create(oneTriangle(corners[0], corners[1], corners[2]).view()));
         const cpu::BatchItem item{&held.mesh, &held.volume, &held.function, std::span(&pose, 1)};
         const cpu::Batch batch{std::span(&item, 1), {}, 0.5};
-        const AreaBounds first = take(coarse.measure(batch)).pairs.at(0).bounds;
-        const AreaBounds last = take(fine.measure(batch)).pairs.at(0).bounds;
-        EXPECT_LE(first.lo, last.hi) << round;
-        EXPECT_GE(first.hi, last.lo) << round;
-        apart += first.hi - first.lo > 1e-3 ? 1 : 0;
+        const Bounds first = take(coarse.measure(batch)).pairs.at(0).bounds;
+        const Bounds last = take(fine.measure(batch)).pairs.at(0).bounds;
+        EXPECT_LE(first.lower, last.upper) << round;
+        EXPECT_GE(first.upper, last.lower) << round;
+        apart += first.upper - first.lower > 1e-3 ? 1 : 0;
     }
     std::cout << apart << " were not known at once\n";
     EXPECT_GT(apart, 1000U);
@@ -375,17 +376,17 @@ TEST(Area, IsNotSpoiltByAnOutlier) {
     const PairArea near =
         area({makeFlat(2, 22, 3, 22, 19.75), image, std::vector<ControlPoint>{{90, 0}, {110, 1}}, {0, 255}});
     // Of the four cells around the outlier that the plate goes through nothing is sure.
-    EXPECT_LE(near.bounds.lo, 12 * 19.0);
-    EXPECT_GE(near.bounds.lo, 12 * 19.0 - 16.001);
-    EXPECT_LE(near.bounds.hi, 12 * 19.0 + 1e-6);
+    EXPECT_LE(near.bounds.lower, 12 * 19.0);
+    EXPECT_GE(near.bounds.lower, 12 * 19.0 - 16.001);
+    EXPECT_LE(near.bounds.upper, 12 * 19.0 + 1e-6);
 }
 
 TEST(Area, OfWhatIsTooFarAwayToTellIsUnknown) {
     const Held held(makeFlat(-1e16, 1e16, -1e16, 1e16, 8), valueRamp(), byteRamp(), {0, 255});
     const PairArea found = area(held);
-    EXPECT_EQ(found.bounds.lo, 0);
-    EXPECT_EQ(found.bounds.hi, kInfinity);
-    EXPECT_EQ(found.end, AreaEnd::Rounding);
+    EXPECT_EQ(found.bounds.lower, 0);
+    EXPECT_EQ(found.bounds.upper, kInfinity);
+    EXPECT_EQ(found.end, StopReason::Rounding);
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 
 #include "core/base/infinity.h"
 #include "cpu/scenes/random_scene.h"
+#include "support/host_meters.h"
 
 #include <algorithm>
 #include <map>
@@ -11,8 +12,8 @@
 namespace voxtact::test {
 namespace {
 
-TriangleAreaAnswer triangleAreas(const Held& held, std::span<const Mat4> poses, const cpu::AreaDesc& desc,
-                                 double threshold = 0.5) {
+AreaAnswer triangleAreas(const Held& held, std::span<const Mat4> poses, const cpu::AreaDesc& desc,
+                         double threshold = 0.5) {
     cpu::AreaMeter meter = take(cpu::AreaMeter::create(desc));
     const cpu::BatchItem item{&held.mesh, &held.volume, &held.function, poses};
     return take(meter.measureTriangles({std::span(&item, 1), {}, threshold}));
@@ -22,7 +23,7 @@ TriangleAreaAnswer triangleAreas(const Held& held, std::span<const Mat4> poses, 
 MeshData triangleOf(const MeshData& mesh, std::size_t number) {
     MeshData alone;
     for (std::uint32_t corner = 0; corner < 3; ++corner) {
-        const float* const at = &mesh.positions[std::size_t{3} * mesh.indices[3 * number + corner]];
+        const double* const at = &mesh.positions[std::size_t{3} * mesh.indices[3 * number + corner]];
         alone.positions.insert(alone.positions.end(), at, at + 3);
         alone.indices.push_back(corner);
     }
@@ -31,8 +32,8 @@ MeshData triangleOf(const MeshData& mesh, std::size_t number) {
 
 void expectEqual(const PairArea& one, const PairArea& other) {
     EXPECT_EQ(one.pair, other.pair);
-    EXPECT_EQ(one.bounds.lo, other.bounds.lo);
-    EXPECT_EQ(one.bounds.hi, other.bounds.hi);
+    EXPECT_EQ(one.bounds.lower, other.bounds.lower);
+    EXPECT_EQ(one.bounds.upper, other.bounds.upper);
     EXPECT_EQ(one.end, other.end);
 }
 
@@ -47,47 +48,47 @@ TEST(TriangleArea, IsWhatTheTriangleHasAlone) {
         const std::size_t count = scene.mesh.indices.size() / 3;
         // So little that parts are divided.
         const cpu::AreaDesc desc{.threads = 1, .tolerance = 1e-5 * surfaceOf(scene.mesh) + 1e-9, .mostSteps = 4096};
-        const TriangleAreaAnswer found = triangleAreas(held, scene.poses, desc, scene.threshold);
+        const AreaAnswer found = triangleAreas(held, scene.poses, desc, scene.threshold);
         const std::vector<PairArea> pairs = areas(held, scene.poses, desc, scene.threshold);
         ASSERT_EQ(found.pairs.size(), pairs.size());
         std::map<std::pair<std::uint32_t, std::uint32_t>, TriangleArea> byNumber;
         for (const TriangleArea& area : found.triangles) {
             EXPECT_EQ(area.pose, area.pair);
-            EXPECT_GT(area.bounds.hi, 0);
+            EXPECT_GT(area.bounds.upper, 0);
             EXPECT_TRUE(byNumber.try_emplace({area.pair, area.triangle}, area).second);
         }
         EXPECT_TRUE(std::ranges::is_sorted(
             found.triangles, {}, [](const TriangleArea& area) { return std::pair(area.pair, area.triangle); }));
         for (std::uint32_t pair = 0; pair < pairs.size(); ++pair) {
             expectEqual(found.pairs[pair], pairs[pair]);
-            AreaBounds sum;
+            Bounds sum;
             for (std::uint32_t triangle = 0; triangle < std::min<std::size_t>(count, 40); ++triangle) {
                 const MeshData alone = triangleOf(scene.mesh, triangle);
                 const Held one(alone, scene.volume, scene.points, scene.domain, scene.tableSize);
-                const AreaBounds wanted = area(one, desc, scene.threshold, scene.poses[pair]).bounds;
+                const Bounds wanted = area(one, desc, scene.threshold, scene.poses[pair]).bounds;
                 const auto at = byNumber.find({pair, triangle});
                 if (at == byNumber.end()) {
-                    EXPECT_EQ(wanted.lo, 0);
+                    EXPECT_EQ(wanted.lower, 0);
                     continue;
                 }
                 const TriangleArea& area = at->second;
                 const double whole = surfaceOf(alone, scene.poses[pair]);
                 EXPECT_NEAR(area.whole, whole, 1e-6 * whole + 1e-12);
-                EXPECT_LE(area.bounds.lo, wanted.hi);
-                EXPECT_GE(area.bounds.hi, wanted.lo);
-                EXPECT_LE(area.bounds.lo, whole * (1 + 1e-6) + 1e-12);
-                const AreaBounds& all = pairs[pair].bounds;
-                EXPECT_LE(area.bounds.hi - area.bounds.lo, all.hi - all.lo + 1e-12 * all.hi);
-                partly += area.bounds.lo > 0 && area.bounds.hi < 0.99 * whole ? 1 : 0;
+                EXPECT_LE(area.bounds.lower, wanted.upper);
+                EXPECT_GE(area.bounds.upper, wanted.lower);
+                EXPECT_LE(area.bounds.lower, whole * (1 + 1e-6) + 1e-12);
+                const Bounds& all = pairs[pair].bounds;
+                EXPECT_LE(area.bounds.upper - area.bounds.lower, all.upper - all.lower + 1e-12 * all.upper);
+                partly += area.bounds.lower > 0 && area.bounds.upper < 0.99 * whole ? 1 : 0;
                 ++told;
             }
             for (const TriangleArea& area : found.triangles) {
-                sum.lo += area.pair == pair ? area.bounds.lo : 0;
-                sum.hi += area.pair == pair ? area.bounds.hi : 0;
+                sum.lower += area.pair == pair ? area.bounds.lower : 0;
+                sum.upper += area.pair == pair ? area.bounds.upper : 0;
             }
-            const double rounding = 1e-12 * (1 + pairs[pair].bounds.hi);
-            EXPECT_NEAR(sum.lo, pairs[pair].bounds.lo, rounding);
-            EXPECT_NEAR(sum.hi, pairs[pair].bounds.hi, rounding);
+            const double rounding = 1e-12 * (1 + pairs[pair].bounds.upper);
+            EXPECT_NEAR(sum.lower, pairs[pair].bounds.lower, rounding);
+            EXPECT_NEAR(sum.upper, pairs[pair].bounds.upper, rounding);
         }
     }
     std::cout << told << " triangles, " << partly << " of them partly\n";
@@ -104,15 +105,15 @@ TEST(TriangleArea, OfKnownTriangles) {
     addTriangle(mesh, {100, 4, 10.25}, {112, 4, 10.25}, {100, 14, 10.25});
     const Held held(mesh, valueRamp(), points, kEntries);
     const Mat4 pose = identity();
-    const TriangleAreaAnswer found = triangleAreas(held, {&pose, 1}, {.threads = 1, .tolerance = 1e-6});
+    const AreaAnswer found = triangleAreas(held, {&pose, 1}, {.threads = 1, .tolerance = 1e-6});
     ASSERT_EQ(found.triangles.size(), 2U);
     for (std::size_t i = 0; i < 2; ++i) {
         const double wanted = i == 0 ? 50 : 25;
         EXPECT_EQ(found.triangles[i].triangle, i);
         EXPECT_NEAR(found.triangles[i].whole, 50, 1e-9);
-        EXPECT_LE(found.triangles[i].bounds.lo, wanted + 1e-9);
-        EXPECT_GE(found.triangles[i].bounds.hi, wanted - 1e-9);
-        EXPECT_LE(found.triangles[i].bounds.hi - found.triangles[i].bounds.lo, 1e-6);
+        EXPECT_LE(found.triangles[i].bounds.lower, wanted + 1e-9);
+        EXPECT_GE(found.triangles[i].bounds.upper, wanted - 1e-9);
+        EXPECT_LE(found.triangles[i].bounds.upper - found.triangles[i].bounds.lower, 1e-6);
     }
     expectArea(75, found.pairs.at(0));
 }
@@ -122,15 +123,15 @@ TEST(TriangleArea, OfWhatIsTooFarAwayToTellIsUnknown) {
     addTriangle(mesh, {0, 0, 8}, {1e30, 0, 8}, {0, 1, 8});
     const Held held(mesh, valueRamp(), byteRamp(), {0, 255});
     const Mat4 pose = identity();
-    const TriangleAreaAnswer found = triangleAreas(held, {&pose, 1}, {.threads = 1});
+    const AreaAnswer found = triangleAreas(held, {&pose, 1}, {.threads = 1});
     ASSERT_EQ(found.triangles.size(), 3U) << "none is known to have nothing";
     for (std::uint32_t i = 0; i < 3; ++i) {
         EXPECT_EQ(found.triangles[i].triangle, i);
         EXPECT_EQ(found.triangles[i].whole, kInfinity);
-        EXPECT_EQ(found.triangles[i].bounds.lo, 0);
-        EXPECT_EQ(found.triangles[i].bounds.hi, kInfinity);
+        EXPECT_EQ(found.triangles[i].bounds.lower, 0);
+        EXPECT_EQ(found.triangles[i].bounds.upper, kInfinity);
     }
-    EXPECT_EQ(found.pairs.at(0).end, AreaEnd::Rounding);
+    EXPECT_EQ(found.pairs.at(0).end, StopReason::Rounding);
 }
 
 TEST(TriangleArea, DoesNotDependOnThreadsOrOnTheBatch) {
@@ -158,8 +159,8 @@ TEST(TriangleArea, DoesNotDependOnThreadsOrOnTheBatch) {
                 EXPECT_EQ(one[i].pair, other[i].pair);
                 EXPECT_EQ(one[i].triangle, other[i].triangle);
                 EXPECT_EQ(one[i].whole, other[i].whole);
-                EXPECT_EQ(one[i].bounds.lo, other[i].bounds.lo);
-                EXPECT_EQ(one[i].bounds.hi, other[i].bounds.hi);
+                EXPECT_EQ(one[i].bounds.lower, other[i].bounds.lower);
+                EXPECT_EQ(one[i].bounds.upper, other[i].bounds.upper);
                 ++compared;
             }
         }

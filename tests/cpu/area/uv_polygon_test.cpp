@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Parts of triangles: cut and measured.
 #include "core/base/infinity.h"
-#include "cpu/area/uv_polygon.h"
+#include "host/area/uv_polygon.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>

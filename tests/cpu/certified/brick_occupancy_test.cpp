@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Which boxes may have an opaque sample: never wrong where something touches, and not always yes.
-#include "cpu/certified/brick_occupancy.h"
+#include "core/transfer/table_points.h"
+#include "host/touch/cells/brick_occupancy.h"
 
 #include "cpu/scenes/engine_fixture.h"
 #include "cpu/scenes/random_scene.h"
+#include "support/host_meters.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -51,7 +53,7 @@ MeshData meshOf(const Probe& probe, const Mat4& world_from_texture) {
 
 TEST(BrickOccupancyTest, WhatTouchesIsInABoxThatMayBeOpaque) {
     std::mt19937_64 random(testSeed());
-    cpu::Detector detector = take(cpu::Detector::create({.threads = 1, .projection = Projection::Conservative}));
+    cpu::Detector detector = take(cpu::Detector::create({.threads = 1, .projection = Projection::Certified}));
     const Mat4 pose = identity();
     std::size_t hits = 0;
     std::size_t clear = 0;
@@ -60,10 +62,14 @@ TEST(BrickOccupancyTest, WhatTouchesIsInABoxThatMayBeOpaque) {
         const cpu::Volume volume = take(cpu::Volume::create(scene.volume.view()));
         const cpu::TransferFunction function = take(cpu::TransferFunction::create(scene.transferFunction()));
         const cpu::BrickOccupancy occupancy(volume, function, scene.threshold);
+        // Boxes are for what looks up the table, and the detector decides by control points.
+        const std::vector<ControlPoint> points =
+            pointsOf(take(sampleTable(scene.transferFunction())), tableDomain(scene.transferFunction()));
+        const cpu::TransferFunction asTable = take(cpu::TransferFunction::create({points, scene.domain}));
         for (int j = 0; j < 30; ++j) {
             const Probe probe = randomProbe(random);
             const cpu::Mesh mesh = take(cpu::Mesh::create(meshOf(probe, worldFromTexture(scene.volume.grid)).view()));
-            const cpu::BatchItem item{&mesh, &volume, &function, {&pose, 1}};
+            const cpu::BatchItem item{&mesh, &volume, &asTable, {&pose, 1}};
             const PairAnswer answer = take(detector.detect({{&item, 1}, scene.view, scene.threshold})).pairs.front();
             const bool may = occupancy.mayBeOpaque(probe.box);
             EXPECT_TRUE(may || !answer.hit) << "scene " << i << ", triangle " << j;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// What the projection `conservative` owes to each of its margins and cases, on the host: scenes whose answer is known,
+// What the projection `certified` owes to each of its margins and cases, on the host: scenes whose answer is known,
 // and that one slip of the pen would get wrong. Each test says which.
 #include "cpu/scenes/certified_scenes.h"
 
-#include "cpu/certified/certified_occupancy.h"
 #include "cpu/scenes/engine_fixture.h"
+#include "host/touch/cells/certified_occupancy.h"
 #include "oracle/certified_oracle.h"
+#include "support/host_meters.h"
 #include "support/scenes.h"
 
 #include <gmock/gmock.h>
@@ -35,7 +36,7 @@ PairAnswer ask(const OracleScene& scene, Certainty oracle, std::uint32_t threads
     const cpu::Mesh mesh = take(cpu::Mesh::create(pair.mesh));
     const cpu::Volume volume = take(cpu::Volume::create(pair.volume));
     const cpu::TransferFunction function = take(cpu::TransferFunction::create(pair.transferFunction));
-    cpu::Detector detector = take(cpu::Detector::create({.threads = threads, .projection = Projection::Conservative}));
+    cpu::Detector detector = take(cpu::Detector::create({.threads = threads, .projection = Projection::Certified}));
     const cpu::BatchItem item{&mesh, &volume, &function, {&pair.world_from_object, 1}};
     return take(detector.detect({{&item, 1}, {}, pair.threshold})).pairs.front();
 }
@@ -90,12 +91,13 @@ TEST(CertifiedMargins, WhatOnlyOneThirdOfAnEdgeReaches) {
 }
 
 /// A pair's tasks are many, and one of them has a fragment that cannot be decided: the others, which end after it,
-/// must not say otherwise. A threshold that devices take for zero leaves all that is in the volume undecided. Whatever
+/// must not say otherwise. All voxels have the value whose opacity is the threshold but for a rounding. Whatever
 /// the order of the clusters, what is on one side of it or on the other comes after it.
 TEST(CertifiedMargins, OneUndecidedFragmentAmongThousandsIsKept) {
     for (const int side : {-1, 0, 1}) {
         OracleScene scene = byteScene(8, [](auto...) { return 200; });
-        scene.threshold = 1e-39;
+        scene.points = {{0, 0}, {255, 1}};
+        scene.threshold = 200.0 / 255;
         addTriangle(scene.mesh, {2.2, 2.2, 2.2}, {2.4, 2.2, 2.3}, {2.3, 2.4, 2.3}); // soon given up
         for (int i = 0; i < 12000; ++i) { // beside the volume, farther and farther
             const bool right = side == 0 ? i % 2 == 0 : side > 0;
@@ -103,7 +105,7 @@ TEST(CertifiedMargins, OneUndecidedFragmentAmongThousandsIsKept) {
             addTriangle(scene.mesh, {x, 1, 1}, {x, 2, 1}, {x, 1, 2});
         }
         for (int round = 0; round < 10; ++round) {
-            const PairAnswer answer = ask(scene, Certainty::Certain, 4);
+            const PairAnswer answer = ask(scene, Certainty::Undecided, 4);
             EXPECT_FALSE(answer.hit);
             EXPECT_TRUE(answer.possible);
             EXPECT_EQ(answer.exactness, Exactness::LowerBound);

@@ -30,9 +30,8 @@ Triangle triangleOf(const CertifiedCase& c, std::size_t number) {
     const Mat4 texture_from_object = multiply(take(textureFromWorld(c.scene.volume.grid)), c.scene.world_from_object);
     Triangle out;
     for (std::size_t corner = 0; corner < 3; ++corner) {
-        const float* at = &c.scene.mesh.positions[std::size_t{3} * c.scene.mesh.indices[3 * number + corner]];
-        out[corner] = transformPoint(
-            texture_from_object, {static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])});
+        const double* at = &c.scene.mesh.positions[std::size_t{3} * c.scene.mesh.indices[3 * number + corner]];
+        out[corner] = transformPoint(texture_from_object, {at[0], at[1], at[2]});
     }
     return out;
 }
@@ -79,18 +78,14 @@ Weights stepFrom(std::mt19937_64& random, const Weights& weights, double size) {
     return sum > 1 ? Weights{out[0] / sum, out[1] / sum} : out;
 }
 
-double thresholdOf(const CertifiedCase& c) {
-    return static_cast<double>(static_cast<float>(c.scene.threshold));
-}
-
 /// Opaque, and so are its neighbours in all directions.
 bool opaqueAround(const CertifiedCase& c, const Vec3& texture) {
-    bool out = opacityOf(c, texture) >= thresholdOf(c);
+    bool out = opacityOf(c, texture) >= c.scene.threshold;
     for (std::size_t axis = 0; axis < 3 && out; ++axis) {
         for (const double step : {-kNear, kNear}) {
             Vec3 beside = texture;
             beside[axis] += step;
-            out = out && opacityOf(c, beside) >= thresholdOf(c);
+            out = out && opacityOf(c, beside) >= c.scene.threshold;
         }
     }
     return out;
@@ -172,7 +167,7 @@ void checkTriangle(const CertifiedCase& c, std::size_t number, const JudgedTrian
     if (found.certainty == Certainty::Certain) {
         tally.crossings += found.crossing ? 1U : 0U;
         const double slack = found.crossing ? 1e-8 : 1e-11;
-        EXPECT_GE(opacityOf(c, found.witness), thresholdOf(c) - slack) << "triangle " << number;
+        EXPECT_GE(opacityOf(c, found.witness), c.scene.threshold - slack) << "triangle " << number;
         EXPECT_TRUE(onTriangle(triangle, found.witness)) << "triangle " << number;
     }
 }

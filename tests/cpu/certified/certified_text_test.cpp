@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The functions that host and device share (shaders/certified*.h), one by one, against what they say of themselves: an
-// error that a margin elsewhere hides is an error all the same.
-#include "certified.h"
+// The functions that host and device share (src/exact/certified*.h), one by one, against what they say of themselves:
+// an error that a margin elsewhere hides is an error nevertheless.
 #include "core/method/certified_constants.h"
-#include "core/transfer/table_extremes.h"
+#include "core/transfer/opaque_numbers.h"
 #include "cpu/scenes/engine_fixture.h"
+#include "exact/certified.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -92,23 +92,16 @@ TEST(CertifiedText, TheRangeOfAPieceIsThatOfItsBernsteinCoefficients) {
     }
 }
 
-/// Opaque from entry 10 to entry 20, and half a step to each side.
+/// Opaque from entry 9.5 to entry 20.5.
 class OneBand {
   public:
-    [[nodiscard]] shader::OpacityTable table() const {
-        return {static_cast<int>(entries_.size()), static_cast<int>(extremes_.levels()), 0.5F,
-                extremes_.values().data()};
+    [[nodiscard]] shader::OpaqueValues opaque() const {
+        return {1, 1, 0, 0.5F, kEnds.data(), {9.5F, 20.5F, 9.5F, 20.5F}};
     }
     static bool isOpaque(double entry) { return entry >= 9.5 && entry <= 20.5; }
 
   private:
-    static std::vector<float> band() {
-        std::vector<float> out(32, 0);
-        std::fill(out.begin() + 10, out.begin() + 21, 1.0F);
-        return out;
-    }
-    std::vector<float> entries_ = band();
-    TableExtremes extremes_{entries_};
+    static constexpr std::array kEnds{9.5F, 20.5F, 9.5F, 20.5F};
 };
 
 TEST(CertifiedText, APointProvesATouchWhereAllThatItMayBeIsOpaque) {
@@ -119,7 +112,7 @@ TEST(CertifiedText, APointProvesATouchWhereAllThatItMayBeIsOpaque) {
         CertifiedCell cell = drawnCell(random, 0, 31);
         cell.margin = drawn(random, 0, 3);
         const float entry = drawn(random, 0, 31);
-        const bool proves = certifiedPointProves(band.table(), cell, {0.5F, 0.5F, 0.5F}, entry);
+        const bool proves = certifiedPointProves(band.opaque(), cell, {0.5F, 0.5F, 0.5F}, entry);
         const bool all = OneBand::isOpaque(entry - cell.margin) && OneBand::isOpaque(entry + cell.margin);
         EXPECT_TRUE(all || !proves) << entry << " within " << cell.margin;
         const bool amply =
@@ -127,7 +120,7 @@ TEST(CertifiedText, APointProvesATouchWhereAllThatItMayBeIsOpaque) {
         EXPECT_TRUE(proves || !amply) << entry << " within " << cell.margin;
         ++answers[proves ? 1 : 0];
         cell.safeHi.y = 0.4F; // the point may be beyond the domain
-        EXPECT_FALSE(certifiedPointProves(band.table(), cell, {0.5F, 0.5F, 0.5F}, entry));
+        EXPECT_FALSE(certifiedPointProves(band.opaque(), cell, {0.5F, 0.5F, 0.5F}, entry));
     }
     EXPECT_GT(answers[0], 1000U);
     EXPECT_GT(answers[1], 1000U);
@@ -150,7 +143,7 @@ TEST(CertifiedText, TwoPointsProveATouchWhereSomethingOpaqueIsBetweenThemForCert
         certifiedSample(cell, {-1.5F, 0.5F, 0.5F}, -1000, samples);
         EXPECT_EQ(samples.lo, std::min(a, b));
         EXPECT_EQ(samples.hi, std::max(a, b));
-        const bool proves = certifiedCrossingProves(band.table(), samples, cell.margin);
+        const bool proves = certifiedCrossingProves(band.opaque(), samples, cell.margin);
         const double lo = static_cast<double>(samples.lo) + cell.margin;
         const double hi = static_cast<double>(samples.hi) - cell.margin;
         EXPECT_TRUE((lo < hi + kRounding && lo <= 20.5 && hi >= 9.5) || !proves) << samples.lo << ", " << samples.hi;
@@ -159,7 +152,7 @@ TEST(CertifiedText, TwoPointsProveATouchWhereSomethingOpaqueIsBetweenThemForCert
     }
     EXPECT_GT(answers[0], 1000U);
     EXPECT_GT(answers[1], 1000U);
-    EXPECT_FALSE(certifiedCrossingProves(band.table(), shader::CertifiedSamples{false, 0, 31, {}, {}}, 0));
+    EXPECT_FALSE(certifiedCrossingProves(band.opaque(), shader::CertifiedSamples{false, 0, 31, {}, {}}, 0));
 }
 
 TEST(CertifiedText, ACellWithACornerThatIsNoNumberIsNotAllOpaque) {
@@ -168,16 +161,16 @@ TEST(CertifiedText, ACellWithACornerThatIsNoNumberIsNotAllOpaque) {
     CertifiedCell cell = drawnCell(random, 12, 18);
     cell.least = 12;
     cell.greatest = 18;
-    EXPECT_TRUE(certifiedCellAllOpaque(band.table(), cell));
+    EXPECT_TRUE(certifiedCellAllOpaque(band.opaque(), cell));
     for (float* corner :
          {&cell.x000, &cell.x100, &cell.x010, &cell.x110, &cell.x001, &cell.x101, &cell.x011, &cell.x111}) {
         const float before = *corner;
         *corner = kFloatNan;
-        EXPECT_FALSE(certifiedCellAllOpaque(band.table(), cell));
+        EXPECT_FALSE(certifiedCellAllOpaque(band.opaque(), cell));
         *corner = before;
     }
     cell.margin = 4;
-    EXPECT_FALSE(certifiedCellAllOpaque(band.table(), cell)) << "it reaches 8 and 22";
+    EXPECT_FALSE(certifiedCellAllOpaque(band.opaque(), cell)) << "it reaches 8 and 22";
 }
 
 TEST(CertifiedText, APartOfACellIsAsWideAsItsTriangleMayBeDisplaced) {

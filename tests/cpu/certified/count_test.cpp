@@ -3,6 +3,7 @@
 #include "cpu/scenes/certified_scenes.h"
 #include "cpu/scenes/engine_fixture.h"
 #include "cpu/scenes/random_scene.h"
+#include "support/host_meters.h"
 
 #include <hwy/targets.h>
 
@@ -21,7 +22,7 @@ PairAnswer answerTo(const OracleScene& scene, bool triangles) {
     const cpu::TransferFunction function = take(cpu::TransferFunction::create(pair.transferFunction));
     cpu::DetectorDesc desc;
     desc.threads = 1;
-    desc.projection = Projection::Conservative;
+    desc.projection = Projection::Certified;
     desc.outputs.triangles = triangles;
     cpu::Detector detector = take(cpu::Detector::create(desc));
     const cpu::BatchItem item{&mesh, &volume, &function, {&pair.world_from_object, 1}};

@@ -4,6 +4,7 @@
 #include "cpu/judges/extreme_cases.h"
 
 #include "cpu/scenes/engine_fixture.h"
+#include "support/host_meters.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -28,7 +29,7 @@ std::string verdictOf(const Grid& grid, const std::array<Vec3, 3>& corners) {
     const Mat4 pose = identity();
     const cpu::BatchItem item{&meshOn, &volume, &function, {&pose, 1}};
     cpu::DetectorDesc desc;
-    desc.projection = Projection::Conservative;
+    desc.projection = Projection::Certified;
     cpu::Detector detector = take(cpu::Detector::create(desc));
     const PairAnswer pair = take(detector.detect({{&item, 1}, {}, 0.5})).pairs.at(0);
     return pair.hit ? "touches" : pair.possible ? "possible" : "none";

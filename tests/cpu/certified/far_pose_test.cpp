@@ -5,6 +5,7 @@
 #include "cpu/scenes/certified_scenes.h"
 
 #include "cpu/scenes/engine_fixture.h"
+#include "support/host_meters.h"
 #include "support/scenes.h"
 #include "voxtact/samples.h"
 
@@ -70,7 +71,7 @@ TEST(FarPose, IsACertainMissWhateverMemoryHeld) {
                 cpu::Detector detector =
                     take(cpu::Detector::create({.threads = threads,
                                                 .stopAtFirst = stopAtFirst,
-                                                .projection = Projection::Conservative,
+                                                .projection = Projection::Certified,
                                                 .outputs = {.triangles = outputs, .contacts = outputs}}));
                 const cpu::Mesh mesh = take(cpu::Mesh::create(triangles.view()));
                 const cpu::Volume volume = take(cpu::Volume::create(image.view()));

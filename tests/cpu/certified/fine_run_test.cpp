@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What is said of small triangles together, against what is said of each by itself.
-#include "cpu/certified/fine_run.h"
+#include "host/touch/cells/fine_run.h"
 
-#include "certified_overlap.h"
 #include "cpu/scenes/random_scene.h"
+#include "exact/certified_overlap.h"
 #include "support/scenes.h"
 
 #include <hwy/targets.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // A look at many fragments together, against what is decided of each by itself.
-#include "cpu/certified/fragment_look.h"
+#include "host/touch/fragment_look.h"
 
-#include "certified_overlap.h"
 #include "cpu/scenes/look_scene.h"
 #include "cpu/scenes/random_scene.h"
+#include "exact/certified_overlap.h"
 #include "support/scenes.h"
 
 #include <hwy/targets.h>
@@ -97,7 +97,7 @@ void look(const LookScene& scene, const std::vector<DrawnFragment>& fragments, F
     }
     EXPECT_EQ(out.count(), fragments.size());
     EXPECT_EQ(out.full(), fragments.size() == FragmentLook::kMost);
-    out.look(scene.item(), scene.look().table.bounds);
+    out.look(scene.item(), scene.opaque().bounds);
     EXPECT_EQ(out.count(), 0U);
 }
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Triangles that are long, and perhaps thin: no box that one passes through is said to be missed, most others are, and
 // what is counted is what an oracle finds.
-#include "cpu/certified/brick_rows.h"
 #include "cpu/judges/certified_judge.h"
 #include "cpu/scenes/engine_fixture.h"
 #include "cpu/scenes/random_scene.h"
+#include "host/touch/cells/brick_rows.h"
+#include "support/host_meters.h"
 
 #include <gtest/gtest.h>
 
@@ -140,8 +141,8 @@ TEST(LongTriangles, AreCountedAsTheOracleDoes) {
     const std::uint64_t seed = testSeed();
     std::mt19937_64 random(seed);
     cpu::Detector detector = take(
-        cpu::Detector::create({.threads = 1, .projection = Projection::Conservative, .outputs = {.triangles = true}}));
-    cpu::Detector bare = take(cpu::Detector::create({.threads = 1, .projection = Projection::Conservative}));
+        cpu::Detector::create({.threads = 1, .projection = Projection::Certified, .outputs = {.triangles = true}}));
+    cpu::Detector bare = take(cpu::Detector::create({.threads = 1, .projection = Projection::Certified}));
     std::uint64_t counted = 0;
     for (int round = 0; round < 4; ++round) {
         Grid grid;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the certified answer starts from (shaders/pair_setup.h) against the same in quadruple precision: no place is off
-// by more than it is said to be, on whatever grid and at whatever pose.
+// What the certified answer starts from (src/exact/pair_setup.h) against the same in quadruple precision: no place is
+// off by more than it is said to be, on whatever grid and at whatever pose.
 #include "core/geometry/projection.h"
 #include "core/method/certified_constants.h"
 #include "support/scenes.h"

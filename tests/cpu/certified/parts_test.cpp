@@ -3,11 +3,11 @@
 #include "core/geometry/clusters.h"
 #include "core/geometry/pair_transform.h"
 #include "core/transfer/opaque_ranges.h"
-#include "cpu/raster/occupancy.h"
-#include "cpu/raster/row_spans.h"
-#include "cpu/raster/scalar_sample.h"
 #include "cpu/scenes/engine_fixture.h"
 #include "cpu/scenes/random_scene.h"
+#include "host/count/occupancy.h"
+#include "host/count/row_spans.h"
+#include "host/count/scalar_sample.h"
 #include "voxtact/samples.h"
 
 #include <algorithm>
@@ -108,51 +108,15 @@ TEST(OccupancyTest, BoxesAgreeWithTheirSamples) {
 TEST(OpaqueRangesTest, EntriesBesideTheOneThatIsOpaque) {
     constexpr std::size_t kEntries = 256;
     std::vector<float> one(kEntries, 0.0F);
-    std::vector<float> allButOne(kEntries, 1.0F);
     one[100] = 1;
-    allButOne[100] = 0;
     const ValueRange domain{0, 256}; // entry i is at value i + 0.5
     const OpaqueRanges rare(one, domain, 0.5);
-    const OpaqueRanges common(allButOne, domain, 0.5);
     for (double entry = 98.2; entry < 101.95; entry += 0.1) {
         EXPECT_TRUE(rare.mayBeOpaque({entry + 0.5, entry + 0.5})) << entry;
-        EXPECT_FALSE(common.certainlyOpaque({entry + 0.5, entry + 0.5})) << entry;
     }
     for (const double entry : {90.0, 110.0}) {
         EXPECT_FALSE(rare.mayBeOpaque({entry + 0.5, entry + 0.5})) << entry;
-        EXPECT_TRUE(common.certainlyOpaque({entry + 0.5, entry + 0.5})) << entry;
     }
-}
-
-TEST(OpaqueRangesTest, NeverCallsATransparentScalarOpaque) {
-    std::mt19937_64 random(testSeed());
-    std::size_t proven = 0;
-    for (int round = 0; round < 300; ++round) {
-        std::vector<float> table(static_cast<std::size_t>(uniform(random, 2, 300)));
-        for (float& entry : table) {
-            entry = chance(random, 0.9) ? 1.0F : static_cast<float>(uniform(random, 0, 1));
-        }
-        const double threshold = uniform(random, 0, 1);
-        const ValueRange domain{-100, uniform(random, 0, 1000)};
-        const OpaqueRanges ranges(table, domain, threshold);
-        const shader::ItemConstants constants = itemConstants(1, 0, domain, threshold);
-        for (int i = 0; i < 50; ++i) {
-            const double lo = uniform(random, -200, 1100);
-            const ValueRange range{lo, lo + uniform(random, 0, 30)};
-            if (!ranges.certainlyOpaque(range)) {
-                continue;
-            }
-            ++proven;
-            EXPECT_TRUE(ranges.mayBeOpaque(range));
-            for (int step = 0; step <= 20; ++step) {
-                const double value = range.lo + (range.hi - range.lo) * step / 20;
-                ASSERT_TRUE(cpu::isOpaque(table, constants, static_cast<float>(value)));
-            }
-        }
-    }
-    EXPECT_GT(proven, 300U);
-    EXPECT_TRUE(OpaqueRanges(std::vector<float>(4, 0.0F), {0, 1}, 0).certainlyOpaque({0, 1}));
-    EXPECT_FALSE(OpaqueRanges(std::vector<float>(4, 0.5F), {0, 1}, 0.5).certainlyOpaque({0, 1}));
 }
 
 TEST(RowSpansTest, AreThePixelsThatTheRuleCovers) {
@@ -205,7 +169,8 @@ TEST(Reciprocals, AreWithinTwoUnitsInTheLastPlace) {
 }
 
 void checkClusters(const MeshData& mesh) {
-    const MeshClusters clusters = makeClusters(mesh.view());
+    const std::vector<float> floats = floatsOf(mesh.positions);
+    const MeshClusters clusters = makeClusters({floats, mesh.indices});
     std::vector<std::uint32_t> seen = clusters.triangles;
     std::sort(seen.begin(), seen.end());
     ASSERT_EQ(seen.size(), mesh.indices.size() / 3);
@@ -224,7 +189,7 @@ void checkClusters(const MeshData& mesh) {
                 const std::uint32_t vertex = clusters.vertices[cluster.firstVertex + local];
                 ASSERT_EQ(vertex, mesh.indices[std::size_t{3} * clusters.triangles[i] + corner]);
                 for (std::size_t axis = 0; axis < 3; ++axis) {
-                    const float at = mesh.positions[std::size_t{3} * vertex + axis];
+                    const float at = floats[std::size_t{3} * vertex + axis];
                     ASSERT_TRUE(cluster.lo[axis] <= at && at <= cluster.hi[axis]);
                 }
             }

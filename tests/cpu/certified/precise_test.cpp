@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The sums and products of floats that lose nothing (shaders/certified_precise.h), against wider arithmetic.
-#include "certified_precise.h"
+// The sums and products of floats that lose nothing (src/exact/certified_precise.h), against wider arithmetic.
+#include "exact/certified_precise.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // A look at a run of triangles and a cell, against what is decided of each triangle by itself; the boxes before it and
 // the set of cells after it.
-#include "cpu/certified/run_look.h"
+#include "host/touch/cells/run_look.h"
 
 #include "core/method/certified_constants.h"
-#include "cpu/certified/box_look.h"
 #include "cpu/scenes/engine_fixture.h"
 #include "cpu/scenes/look_scene.h"
 #include "cpu/scenes/random_scene.h"
+#include "host/touch/cells/box_look.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -68,16 +68,16 @@ TEST(RunLookTest, LeavesOutOnlyWhatIsNoneForEachTriangle) {
         ASSERT_TRUE(bounds.usable);
         const int x = 20 + static_cast<int>(below(random, 2));
         const shader::CertifiedCell cell = shader::certifiedCell(scene.item(), corners, x, 20, 20, bounds.delta);
-        if (!shader::certifiedCellMayBeOpaque(scene.table(), cell)) {
+        if (!shader::certifiedCellMayBeOpaque(scene.opaque(), cell)) {
             continue;
         }
-        const cpu::OpacityLook look = scene.look();
-        const bool may = cpu::hullMayMeet(look, points.hull(bounds.delta), cell, x, 20, 20);
+        const shader::OpaqueValues opaque = scene.opaque();
+        const bool may = cpu::hullMayMeet(opaque, points.hull(bounds.delta), cell, x, 20, 20);
         bool none = true;
         for (const auto& triangle : run) {
             const bool isNone = scene.verdict(corners, triangle, {x, 20, 20}) == CERTIFIED_NONE;
             const cpu::TriangleHull hull(triangle[0].point, triangle[1].point, triangle[2].point, bounds.delta);
-            const bool mayAlone = cpu::hullMayMeetLinearly(look, hull.hull(), cell, x, 20, 20);
+            const bool mayAlone = cpu::hullMayMeetLinearly(opaque, hull.hull(), cell, x, 20, 20);
             EXPECT_TRUE(isNone || (may && mayAlone)) << "round " << round;
             none = none && isNone;
             byItself += isNone ? 1 : 0;
@@ -102,8 +102,8 @@ TEST(RunLookTest, LeavesWhatIsNotANumber) {
         const auto run = drawnRun(random);
         const cpu::TriangleHull hull(run[0][0].point, run[0][1].point, run[0][2].point, 1e-4F);
         const shader::CertifiedCell cell = shader::certifiedCell(scene.item(), corners, 20, 20, 20, 1e-4F);
-        const cpu::OpacityLook look = scene.look();
-        EXPECT_TRUE(cpu::hullMayMeetLinearly(look, hull.hull(), cell, 20, 20, 20)) << "round " << round;
+        const shader::OpaqueValues opaque = scene.opaque();
+        EXPECT_TRUE(cpu::hullMayMeetLinearly(opaque, hull.hull(), cell, 20, 20, 20)) << "round " << round;
     }
 }
 
@@ -146,7 +146,7 @@ TEST(BoxLookTest, HasTheCellsThatABoxByItselfHas) {
         }
         const cpu::ClusterTree tree(runs);
         const Grid grid = unitGrid(64);
-        const shader::CertifiedItem item = certifiedItem(grid, 1, 0, {0, 255}, 256, 0.1, 1e-3);
+        const shader::CertifiedItem item = certifiedItem(grid, OpaqueNumbers{}, 1e-3);
         const shader::CertifiedPair pair =
             certifiedPair(pairGrid(grid, take(textureFromWorld(grid))), randomMotion(random));
         const cpu::BoxLook look(item, pair, tree);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What is said of the cells of a cube without cutting the triangle, against cutting it.
-#include "cpu/certified/triangle_cells.h"
+#include "host/touch/cells/triangle_cells.h"
 
 #include "cpu/scenes/random_scene.h"
 #include "support/scenes.h"
@@ -76,12 +76,13 @@ bool cutLeavesSome(const CertifiedTriangle& triangle, std::int32_t x, std::int32
     return shader::certifiedClip(triangle, cell, origin, polygon) > 0;
 }
 
-constexpr auto kSide = static_cast<std::int32_t>(TriangleCells::kSide);
-constexpr std::int32_t kCubeCells = kSide * kSide * kSide;
+constexpr auto kCubeSide = static_cast<std::int32_t>(TriangleCells::kSide);
+constexpr std::int32_t kCubeCells = kCubeSide * kCubeSide * kCubeSide;
 
 /// The cell of a number in the cube from `first` on.
 std::array<std::int32_t, 3> cellOfCube(const std::array<std::int32_t, 3>& first, std::int32_t number) {
-    return {first[0] + number % kSide, first[1] + number / kSide % kSide, first[2] + number / (kSide * kSide)};
+    return {first[0] + number % kCubeSide, first[1] + number / kCubeSide % kCubeSide,
+            first[2] + number / (kCubeSide * kCubeSide)};
 }
 
 /// Cubes from the last cell before to the first one after.
@@ -93,9 +94,9 @@ template <class Visit> void forCubes(const Corners& corners, const Visit& visit)
         lo[axis] = static_cast<std::int32_t>(std::floor(std::min({of(0), of(1), of(2)}))) - 1;
         hi[axis] = static_cast<std::int32_t>(std::floor(std::max({of(0), of(1), of(2)}))) + 1;
     }
-    for (std::int32_t z = lo[2]; z <= hi[2]; z += kSide) {
-        for (std::int32_t y = lo[1]; y <= hi[1]; y += kSide) {
-            for (std::int32_t x = lo[0]; x <= hi[0]; x += kSide) {
+    for (std::int32_t z = lo[2]; z <= hi[2]; z += kCubeSide) {
+        for (std::int32_t y = lo[1]; y <= hi[1]; y += kCubeSide) {
+            for (std::int32_t x = lo[0]; x <= hi[0]; x += kCubeSide) {
                 visit(std::array{x, y, z});
             }
         }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Cells and pieces of cells in rows, for vectors: against what does the same one by one, and against points.
-#include "cpu/clearance/cell_sieve.h"
-#include "cpu/clearance/cell_walk.h"
-#include "cpu/clearance/closest_point.h"
-#include "cpu/clearance/mesh_place.h"
-#include "cpu/clearance/nearest_point.h"
-#include "cpu/clearance/piece_rows.h"
 #include "cpu/scenes/engine_fixture.h"
 #include "cpu/scenes/random_scene.h"
+#include "host/search/cells/cell_sieve.h"
+#include "host/search/cells/cell_walk.h"
+#include "host/search/cells/piece_rows.h"
+#include "host/search/closest_point.h"
+#include "host/search/mesh_place.h"
+#include "host/search/nearest_point.h"
 #include "support/scenes.h"
 #include "support/special.h"
 
@@ -87,7 +87,7 @@ TEST(CellWalk, EndsWhereGoToOpaqueDoes) {
             rows.setPiece(rows.count - 1, 0.5 * (region.lo + region.hi), 0.5 * (region.hi - region.lo));
             regions.push_back(region);
         }
-        cpu::makeTerms(part.scale(), rows);
+        cpu::makeTerms(rows);
         byEveryInstructionSet([&](const char* name) {
             cpu::WalkRows walks_;
             cpu::walkToOpaque({part.intervals, part.space, from, voxel}, rows, walks_);
@@ -217,7 +217,7 @@ TEST(PieceRows, AreNoNearerThanTheirBounds) {
         cpu::findRanges(rows);
         std::vector<bool> opaque;
         for (std::size_t i = 0; i < rows.count; ++i) {
-            cpu::EntryInterval hull;
+            ValueRange hull;
             opaque.push_back(part.intervals.meet(rows.lo[i], rows.hi[i], hull));
             rows.hullLo[i] = hull.lo;
             rows.hullHi[i] = hull.hi;

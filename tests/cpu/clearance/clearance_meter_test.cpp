@@ -4,6 +4,7 @@
 #include "cpu/scenes/oracle_scenes.h"
 #include "cpu/scenes/random_scene.h"
 
+#include "support/host_meters.h"
 #include "support/special.h"
 #include "voxtact/samples.h"
 
@@ -18,8 +19,8 @@
 namespace voxtact::test {
 namespace {
 
-bool same(const PairClearance& a, const PairClearance& b) {
-    return a.bounds.lo == b.bounds.lo && a.bounds.hi == b.bounds.hi && a.end == b.end &&
+bool same(const PairDistance& a, const PairDistance& b) {
+    return a.bounds.lower == b.bounds.lower && a.bounds.upper == b.bounds.upper && a.end == b.end &&
            a.closest.has_value() == b.closest.has_value() &&
            (!a.closest || (a.closest->mesh == b.closest->mesh && a.closest->volume == b.closest->volume &&
                            a.closest->triangle == b.closest->triangle));
@@ -31,8 +32,8 @@ TEST(Clearance, DoesNotDependOnItsCompany) {
     std::mt19937_64 random(seed);
     const RandomScene scene = makeRandomScene(random, 40);
     const Held held(scene.mesh, scene.volume, scene.points, scene.domain, scene.tableSize);
-    const std::vector<PairClearance> alone = held.measure(scene.poses, {.threads = 1}, scene.threshold);
-    const std::vector<PairClearance> together = held.measure(scene.poses, {.threads = 3}, scene.threshold);
+    const std::vector<PairDistance> alone = held.measure(scene.poses, {.threads = 1}, scene.threshold);
+    const std::vector<PairDistance> together = held.measure(scene.poses, {.threads = 3}, scene.threshold);
     ASSERT_EQ(alone.size(), scene.poses.size());
     for (std::size_t i = 0; i < alone.size(); ++i) {
         EXPECT_EQ(alone[i].pose, i);
@@ -56,19 +57,20 @@ TEST(Clearance, IsTheSameByEveryInstructionSet) {
         }
         const Held held(scene.mesh, scene.volume, scene.points, scene.domain, scene.tableSize);
         const auto measured = [&] { return held.measure(scene.poses, {.threads = 1}, scene.threshold); };
-        const std::vector<PairClearance> best = measured();
+        const std::vector<PairDistance> best = measured();
         for (std::int64_t rest = hwy::SupportedTargets(); rest != 0; rest &= rest - 1) {
             hwy::SetSupportedTargetsForTest(rest & -rest);
-            const std::vector<PairClearance> found = measured();
+            const std::vector<PairDistance> found = measured();
             for (std::size_t i = 0; i < best.size(); ++i) {
                 EXPECT_TRUE(same(best[i], found[i]))
                     << hwy::TargetName(rest & -rest) << ", round " << round << ", pose " << i << ": "
-                    << found[i].bounds.lo - best[i].bounds.lo << ", " << found[i].bounds.hi - best[i].bounds.hi;
+                    << found[i].bounds.lower - best[i].bounds.lower << ", "
+                    << found[i].bounds.upper - best[i].bounds.upper;
             }
             hwy::SetSupportedTargetsForTest(0);
         }
         apart += static_cast<std::size_t>(std::ranges::count_if(
-            best, [](const PairClearance& pair) { return pair.bounds.lo > 0 && pair.bounds.hi < kInfinity; }));
+            best, [](const PairDistance& pair) { return pair.bounds.lower > 0 && pair.bounds.upper < kInfinity; }));
     }
     std::cout << apart << " are apart\n";
     EXPECT_GT(apart, 10U);
@@ -88,7 +90,7 @@ TEST(Clearance, TakesMeshesOfAllSizesOneAfterTheOther) {
         }
         held.mesh = take(cpu::Mesh::create(mesh.view()));
         const cpu::BatchItem item{&held.mesh, &held.volume, &held.function, std::span(&pose, 1)};
-        const PairClearance found = take(meter.measure({std::span(&item, 1), {}, 0.5})).pairs.at(0);
+        const PairDistance found = take(meter.measure({std::span(&item, 1), {}, 0.5})).pairs.at(0);
         expectAbout(2, found);
         EXPECT_EQ(found.closest->triangle, 0U);
     }
@@ -102,12 +104,12 @@ TEST(Clearance, SeesEditsAndNewTransferFunctions) {
     const std::vector<ControlPoint> low{{50, 0}, {50, 1}};
     Held held(needle(), image, high, {0, 255});
     const Mat4 pose = translation({30, 10, 10});
-    const double before = held.measure(pose).bounds.hi;
+    const double before = held.measure(pose).bounds.upper;
     EXPECT_NEAR(before, 27.5, 0.1);
     ASSERT_TRUE(held.volume.set(VoxelBox{{15, 10, 10}, {1, 1, 1}}, 200).ok());
-    EXPECT_NEAR(held.measure(pose).bounds.hi, 14.5, 0.1);
+    EXPECT_NEAR(held.measure(pose).bounds.upper, 14.5, 0.1);
     held.function = take(cpu::TransferFunction::create({low, {0, 255}}));
-    EXPECT_NEAR(held.measure(pose).bounds.hi, 10.5, 1e-6);
+    EXPECT_NEAR(held.measure(pose).bounds.upper, 10.5, 1e-6);
 }
 
 /// Of label 1 in front of a needle that points along -x from x = 30.
@@ -115,7 +117,7 @@ double clearanceToOne(cpu::ClearanceMeter& meter, const Held& held, const LabelD
     const Mat4 pose = translation({30, 10, 10});
     const cpu::BatchItem item{&held.mesh, &held.volume, &held.function, std::span(&pose, 1), &labels};
     const std::vector<std::int32_t> one{1};
-    return take(meter.measureLabels({std::span(&item, 1), {}, 0.5}, one)).labels.at(0).bounds.hi;
+    return take(meter.measureLabels({std::span(&item, 1), {}, 0.5}, one)).labels.at(0).bounds.upper;
 }
 
 /// A map is the caller's: what a meter keeps of one must not outlive what it held.
@@ -169,10 +171,10 @@ TEST(Clearance, MeasuresToLabelsAtAnyOpacity) {
     const Mat4 pose = translation(tip);
     const cpu::BatchItem item{&apart.mesh, &apart.volume, &apart.function, std::span(&pose, 1), &box};
     const std::vector<std::int32_t> one{1};
-    const LabelClearance says = take(all.measureLabels({std::span(&item, 1), {}, 0.5}, one)).labels.at(0);
-    EXPECT_LE(says.bounds.lo, 7 + 1e-9);
-    EXPECT_GE(says.bounds.hi, 7 - 1e-9);
-    EXPECT_EQ(says.end, ClearanceEnd::Closed);
+    const LabelDistance says = take(all.measureLabels({std::span(&item, 1), {}, 0.5}, one)).labels.at(0);
+    EXPECT_LE(says.bounds.lower, 7 + 1e-9);
+    EXPECT_GE(says.bounds.upper, 7 - 1e-9);
+    EXPECT_EQ(says.end, StopReason::Closed);
 }
 
 /// A label that is asked for twice is answered twice.
@@ -185,13 +187,13 @@ TEST(Clearance, MeasuresToALabelAsOftenAsItIsAskedFor) {
     const cpu::BatchItem item{&held.mesh, &held.volume, &held.function, std::span(&pose, 1), &labels};
     cpu::ClearanceMeter meter = take(cpu::ClearanceMeter::create({.threads = 1}));
     const std::vector<std::int32_t> wanted{1, 2, 1, 3, 1, 3, 2};
-    const std::vector<LabelClearance> found = take(meter.measureLabels({std::span(&item, 1), {}, 0.5}, wanted)).labels;
+    const std::vector<LabelDistance> found = take(meter.measureLabels({std::span(&item, 1), {}, 0.5}, wanted)).labels;
     ASSERT_EQ(found.size(), wanted.size());
     for (std::size_t i = 0; i < wanted.size(); ++i) {
         EXPECT_EQ(found[i].label, wanted[i]);
         const double truth = wanted[i] == 1 ? 30 - 3.5 : wanted[i] == 2 ? 30 - 19.5 : kInfinity;
-        EXPECT_TRUE(found[i].bounds.hi == truth || std::abs(found[i].bounds.hi - truth) < 1e-4)
-            << i << ": " << found[i].bounds.hi;
+        EXPECT_TRUE(found[i].bounds.upper == truth || std::abs(found[i].bounds.upper - truth) < 1e-4)
+            << i << ": " << found[i].bounds.upper;
     }
 }
 
@@ -203,10 +205,10 @@ TEST(Clearance, RefusesWhatItCannotUse) {
     EXPECT_EQ(refused({.tolerance = 0}), "the tolerance 0 mm is not a number from 1e-06 mm on");
     EXPECT_NE(refused({.tolerance = std::nan("")}), "");
     EXPECT_NE(refused({.tolerance = kInfinity}), "");
-    EXPECT_EQ(refused({.maximum = 0}), "the maximum clearance 0 mm is not above 0");
+    EXPECT_EQ(refused({.maximum = 0}), "the max 0 mm is not a number above 0 mm");
     EXPECT_NE(refused({.maximum = std::nan("")}), "");
     EXPECT_NE(refused({.resolution = 2}), "");
-    EXPECT_EQ(refused({.mostSteps = 0}), "at most 0 steps are allowed, a clearance takes at least one step");
+    EXPECT_EQ(refused({.mostSteps = 0}), "at most 0 steps are allowed, a search takes at least one step");
     EXPECT_EQ(refused({.threads = 2}), "");
 
     const VolumeData volume = makeBytes(unitGrid(8), [](auto...) { return 255; });

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Clearances of random scenes against the oracle, which knows nothing of clusters, bricks and directions.
 #include "cpu/scenes/certified_scenes.h"
+#include "cpu/scenes/clearance_cases.h"
 #include "cpu/scenes/held_scene.h"
-#include "cpu/scenes/margin_cases.h"
 #include "cpu/scenes/random_labels.h"
 #include "cpu/scenes/random_scene.h"
 #include "oracle/clearance_oracle.h"
+#include "support/host_meters.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -23,10 +24,8 @@ using oracle::OracleClearance;
 double largestCoordinate(const OracleScene& scene) {
     double largest = 0;
     for (std::size_t i = 0; i < scene.mesh.positions.size(); i += 3) {
-        const float* at = &scene.mesh.positions[i];
-        const Vec3 world =
-            transformPoint(scene.world_from_object,
-                           {static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])});
+        const double* at = &scene.mesh.positions[i];
+        const Vec3 world = transformPoint(scene.world_from_object, {at[0], at[1], at[2]});
         largest = std::max({largest, std::abs(world[0]), std::abs(world[1]), std::abs(world[2])});
     }
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -56,21 +55,21 @@ struct Tally {
 };
 
 /// The closest points are what they are said to be.
-void checkClosest(const CertifiedCase& c, const PairClearance& says, double slack) {
+void checkClosest(const CertifiedCase& c, const PairDistance& says, double slack) {
     if (!says.closest) {
-        EXPECT_TRUE(std::isinf(says.bounds.hi));
+        EXPECT_TRUE(std::isinf(says.bounds.upper));
         return;
     }
-    const ClosestPoints& closest = *says.closest;
+    const WitnessPoints& closest = *says.closest;
     EXPECT_LT(closest.triangle, c.scene.mesh.indices.size() / 3);
     // As far apart as `hi` says: so they are no nearer than `lo`.
-    EXPECT_NEAR(distanceOf(closest.mesh, closest.volume), says.bounds.hi, slack + 1e-11 * says.bounds.hi);
+    EXPECT_NEAR(distanceOf(closest.mesh, closest.volume), says.bounds.upper, slack + 1e-11 * says.bounds.upper);
 }
 
 void checkCase(const CertifiedCase& c, cpu::ClearanceMeter& meter, cpu::Detector& detector, double resolution,
                Tally& tally) {
     const HeldScene held(c.scene);
-    const PairClearance says = take(meter.measure(held.batch)).pairs.at(0);
+    const PairDistance says = take(meter.measure(held.batch)).pairs.at(0);
     const PairAnswer touch = take(detector.detect(held.batch)).pairs.at(0);
     const OracleClearance truth = take(oracle::clearanceOracle(c.scene.pair(), resolution));
     const double slack = 1e-12 * largestCoordinate(c.scene);
@@ -82,7 +81,7 @@ void checkCase(const CertifiedCase& c, cpu::ClearanceMeter& meter, cpu::Detector
                                     << truth.hi;
     EXPECT_EQ(touch.hit, hi == 0);
     EXPECT_TRUE(!touch.possible || lo == 0);
-    EXPECT_TRUE(says.end != ClearanceEnd::Closed || hi - lo <= kDefaultTolerance || std::isinf(lo));
+    EXPECT_TRUE(says.end != StopReason::Closed || hi - lo <= kDefaultTolerance || std::isinf(lo));
     checkClosest(c, says, slack);
     ++tally.ends[toString(says.end)];
     ++(touch.hit ? tally.touching : (std::isinf(lo) ? tally.infinite : tally.apart));
@@ -92,7 +91,7 @@ TEST(ClearanceOracle, TheTruthIsBetweenTheBounds) {
     const std::uint64_t seed = testSeed();
     cpu::ClearanceMeter meter = take(cpu::ClearanceMeter::create({.threads = 1}));
     cpu::Detector detector =
-        take(cpu::Detector::create({.threads = 1, .stopAtFirst = true, .projection = Projection::Conservative}));
+        take(cpu::Detector::create({.threads = 1, .stopAtFirst = true, .projection = Projection::Certified}));
     Tally tally;
     const std::size_t cases = randomCases(100000, 400);
     for (std::uint64_t number = 0; number < cases; ++number) {
@@ -114,9 +113,9 @@ TEST(ClearanceOracle, PointsOfAThinPartAreAsFarApartAsTheBoundsSay) {
     for (const auto& [seed, number] : {std::pair{1034, 63}, {2109, 9}}) {
         const CertifiedCase c = makeClearanceCase(static_cast<std::uint64_t>(seed), static_cast<std::uint64_t>(number));
         const HeldScene held(c.scene);
-        const PairClearance says = take(meter.measure(held.batch)).pairs.at(0);
+        const PairDistance says = take(meter.measure(held.batch)).pairs.at(0);
         ASSERT_TRUE(says.closest);
-        EXPECT_GT(says.bounds.lo, 1);
+        EXPECT_GT(says.bounds.lower, 1);
         checkClosest(c, says, 1e-12 * largestCoordinate(c.scene));
     }
 }
@@ -135,8 +134,8 @@ TEST(ClearanceOracle, TheTruthOfLabelsIsBetweenTheirBounds) {
         const LabelData labels = randomLabels(random, c.scene.volume.grid);
         HeldScene held(c.scene);
         held.item.labels = &labels;
-        const std::vector<LabelClearance> says = take(meter.measureLabels(held.batch, asked)).labels;
-        const ClearanceBounds whole = take(meter.measure(held.batch)).pairs.at(0).bounds;
+        const std::vector<LabelDistance> says = take(meter.measureLabels(held.batch, asked)).labels;
+        const Bounds whole = take(meter.measure(held.batch)).pairs.at(0).bounds;
         const double slack = 1e-12 * largestCoordinate(c.scene);
         ASSERT_EQ(says.size(), asked.size());
         double least = std::numeric_limits<double>::infinity();
@@ -148,13 +147,13 @@ TEST(ClearanceOracle, TheTruthOfLabelsIsBetweenTheirBounds) {
             EXPECT_EQ(says[i].label, asked[i]);
             EXPECT_LE(lo, truth.hi + slack) << lo << " to " << hi << ", truth " << truth.lo << " to " << truth.hi;
             EXPECT_GE(hi, truth.lo - slack) << lo << " to " << hi << ", truth " << truth.lo << " to " << truth.hi;
-            EXPECT_GE(hi, whole.lo);
+            EXPECT_GE(hi, whole.lower);
             least = std::min(least, lo);
             ++(std::isinf(lo) ? infinite : apart);
-            closed += says[i].end == ClearanceEnd::Closed ? 1 : 0;
+            closed += says[i].end == StopReason::Closed ? 1 : 0;
         }
         // Everything has one of the labels.
-        EXPECT_LE(least, whole.hi);
+        EXPECT_LE(least, whole.upper);
         ASSERT_FALSE(HasFailure());
     }
     std::cout << apart << " are apart, " << infinite << " have nothing, " << closed << " closed\n";
@@ -176,7 +175,7 @@ TEST(ClearanceOracle, TheTruthOfWholeLabelsIsBetweenTheirBounds) {
         const LabelData labels = randomLabels(random, c.scene.volume.grid);
         HeldScene held(c.scene);
         held.item.labels = &labels;
-        const std::vector<LabelClearance> says = take(meter.measureLabels(held.batch, asked)).labels;
+        const std::vector<LabelDistance> says = take(meter.measureLabels(held.batch, asked)).labels;
         for (ControlPoint& point : c.scene.points) {
             point.opacity = 1;
         }
@@ -189,7 +188,7 @@ TEST(ClearanceOracle, TheTruthOfWholeLabelsIsBetweenTheirBounds) {
                 oracle::labelClearanceOracle(c.scene.pair(), labels, asked[i], number % 8 == 0 ? 1.0 / 256 : 1.0 / 32));
             EXPECT_LE(lo, truth.hi + slack) << lo << " to " << hi << ", truth " << truth.lo << " to " << truth.hi;
             EXPECT_GE(hi, truth.lo - slack) << lo << " to " << hi << ", truth " << truth.lo << " to " << truth.hi;
-            closed += says[i].end == ClearanceEnd::Closed ? 1 : 0;
+            closed += says[i].end == StopReason::Closed ? 1 : 0;
         }
         ASSERT_FALSE(HasFailure());
     }
@@ -207,7 +206,7 @@ TEST(ClearanceOracle, AMarginIsWhatTheClearanceSays) {
         SCOPED_TRACE("case " + std::to_string(number));
         const CertifiedCase c = makeClearanceCase(seed, number);
         const HeldScene held(c.scene);
-        const PairClearance says = take(meter.measure(held.batch)).pairs.at(0);
+        const PairDistance says = take(meter.measure(held.batch)).pairs.at(0);
         const auto [lo, hi] = says.bounds;
         for (const double margin : {lo / 2, lo * 0.999, hi * 1.001, 2 * hi, 0.5}) {
             if (!(margin > 0) || std::isinf(margin)) {
@@ -217,7 +216,7 @@ TEST(ClearanceOracle, AMarginIsWhatTheClearanceSays) {
             if (margin < lo) {
                 EXPECT_FALSE(answer.hit || answer.possible) << margin << " is below " << lo;
                 ++no;
-            } else if (margin >= hi && says.end == ClearanceEnd::Closed) {
+            } else if (margin >= hi && says.end == StopReason::Closed) {
                 EXPECT_TRUE(answer.hit) << margin << " is not below " << hi << ", " << lo;
                 ++yes;
             } else if (answer.hit) {
@@ -242,16 +241,16 @@ TEST(ClearanceOracle, AMoveChangesItByNoMoreThanItsLength) {
     for (std::uint64_t number = 0; number < cases; ++number) {
         SCOPED_TRACE("case " + std::to_string(number));
         CertifiedCase c = makeClearanceCase(seed, number);
-        const ClearanceBounds before = take(meter.measure(HeldScene(c.scene).batch)).pairs.at(0).bounds;
+        const Bounds before = take(meter.measure(HeldScene(c.scene).batch)).pairs.at(0).bounds;
         const double by = std::pow(10, uniform(random, -2, 1));
         const Mat4 turn = randomRotation(random);
         c.scene.world_from_object =
             multiply(translation({by * turn[0], by * turn[1], by * turn[2]}), c.scene.world_from_object);
-        const ClearanceBounds after = take(meter.measure(HeldScene(c.scene).batch)).pairs.at(0).bounds;
+        const Bounds after = take(meter.measure(HeldScene(c.scene).batch)).pairs.at(0).bounds;
         const double slack = 1e-12 * largestCoordinate(c.scene);
-        EXPECT_LE(after.lo, before.hi + by + slack);
-        EXPECT_GE(after.hi, before.lo - by - slack);
-        changed += before.lo > 0 && std::abs(after.lo - before.lo) > 0.1 * by ? 1 : 0;
+        EXPECT_LE(after.lower, before.upper + by + slack);
+        EXPECT_GE(after.upper, before.lower - by - slack);
+        changed += before.lower > 0 && std::abs(after.lower - before.lower) > 0.1 * by ? 1 : 0;
         ASSERT_FALSE(HasFailure());
     }
     EXPECT_GT(changed, cases / 8);

@@ -4,6 +4,7 @@
 #include "cpu/clearance/held.h"
 #include "cpu/scenes/oracle_scenes.h"
 #include "cpu/scenes/random_scene.h"
+#include "support/host_meters.h"
 #include "support/scenes.h"
 #include "support/special.h"
 
@@ -78,7 +79,7 @@ TEST(Clearance, OfTiltedHalfSpacesInGridsOfAllKinds) {
         // So many entries that the ramp has some.
         const Held held(needle(), scene.volume, scene.points, scene.domain, 1024);
         const double distance = std::pow(10, uniform(random, -2, 1));
-        const PairClearance found = held.measure(poseAlong(scene.outward, scene.at(distance)));
+        const PairDistance found = held.measure(poseAlong(scene.outward, scene.at(distance)));
         SCOPED_TRACE(std::to_string(i) + ": " + std::to_string(distance));
         expectAbout(distance, found, 1e-3);
         ASSERT_TRUE(found.closest);
@@ -98,7 +99,7 @@ TEST(Clearance, TheGradientIsHowItChanges) {
         const Held held(oneTriangle({2, 1, -1}, {7, 1.5, 0}, {7, 0, 1.5}), scene.volume, scene.points, scene.domain,
                         1024);
         Mat4 pose = poseAlong(scene.outward, scene.at(1.5));
-        const std::optional<ClosestPoints> closest = held.measure(pose, fine).closest;
+        const std::optional<WitnessPoints> closest = held.measure(pose, fine).closest;
         ASSERT_TRUE(closest);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const double step = 1e-2;
@@ -113,10 +114,10 @@ TEST(Clearance, TheGradientIsHowItChanges) {
             const Vec3 origin{pose[12], pose[13], pose[14]};
             const Mat4 turned = multiply(
                 translation(origin), multiply(turn, multiply(translation({-origin[0], -origin[1], -origin[2]}), pose)));
-            const double before = held.measure(pose, fine).bounds.hi;
-            const double moved = held.measure(multiply(translation(offset), pose), fine).bounds.hi;
+            const double before = held.measure(pose, fine).bounds.upper;
+            const double moved = held.measure(multiply(translation(offset), pose), fine).bounds.upper;
             EXPECT_NEAR((moved - before) / step, closest->perTranslation[axis], 0.02);
-            const double after = held.measure(turned, fine).bounds.hi;
+            const double after = held.measure(turned, fine).bounds.upper;
             EXPECT_NEAR((after - before) / step, closest->perRotation[axis], 0.15);
         }
         ASSERT_FALSE(HasFailure());
@@ -184,7 +185,7 @@ TEST(Clearance, OfNarrowPeaksAndBetweenTwo) {
     expectAbout(30 - 20.55, at(30), 0.02);
     expectAbout(60.45 - 58, at(58), 0.02);
     expectAbout(72 - 60.55, at(72), 0.02);
-    EXPECT_EQ(at(20.5).bounds.hi, 0);
+    EXPECT_EQ(at(20.5).bounds.upper, 0);
 }
 
 /// Everything is opaque, out to the outermost voxels' faces.
@@ -205,13 +206,13 @@ TEST(Clearance, OfTheVolumesBox) {
             const double off = std::max({lo - place[axis], place[axis] - hi, 0.0});
             squared += off * off;
         }
-        const PairClearance found = held.measure(translation(place));
+        const PairDistance found = held.measure(translation(place));
         SCOPED_TRACE(i);
         if (squared > 0) {
             expectAbout(std::sqrt(squared), found);
-            EXPECT_NEAR(found.bounds.hi, std::sqrt(squared), 1e-9);
+            EXPECT_NEAR(found.bounds.upper, std::sqrt(squared), 1e-9);
         } else {
-            EXPECT_EQ(found.bounds.hi, 0);
+            EXPECT_EQ(found.bounds.upper, 0);
         }
     }
 }
@@ -219,19 +220,19 @@ TEST(Clearance, OfTheVolumesBox) {
 TEST(Clearance, OfNothingIsInfinite) {
     const VolumeData volume = makeBytes(unitGrid(8), [](auto x, auto, auto) { return x == 3 ? 40 : 10; });
     const Held held(needle(), volume, byteRamp(), {0, 255});
-    const PairClearance found = held.measure(identity());
-    EXPECT_EQ(found.bounds.lo, kInfinity);
-    EXPECT_EQ(found.bounds.hi, kInfinity);
-    EXPECT_EQ(found.end, ClearanceEnd::Closed);
+    const PairDistance found = held.measure(identity());
+    EXPECT_EQ(found.bounds.lower, kInfinity);
+    EXPECT_EQ(found.bounds.upper, kInfinity);
+    EXPECT_EQ(found.end, StopReason::Closed);
     EXPECT_FALSE(found.closest);
 }
 
 TEST(Clearance, OfATouchIsZeroAndItsPointsAreOne) {
     const VolumeData volume = makeBytes(unitGrid(8), [](auto x, auto, auto) { return x > 3 ? 255 : 0; });
     const Held held(makeFlat(-1, 2, -1, 2, 0.5), volume, byteRamp(), {0, 255});
-    const PairClearance found = held.measure(identity());
-    EXPECT_EQ(found.bounds.lo, 0);
-    EXPECT_EQ(found.bounds.hi, 0);
+    const PairDistance found = held.measure(identity());
+    EXPECT_EQ(found.bounds.lower, 0);
+    EXPECT_EQ(found.bounds.upper, 0);
     ASSERT_TRUE(found.closest);
     EXPECT_EQ(found.closest->mesh, found.closest->volume);
     EXPECT_GE(found.closest->mesh[0], 3.5 / 8);
@@ -239,12 +240,12 @@ TEST(Clearance, OfATouchIsZeroAndItsPointsAreOne) {
     EXPECT_EQ(found.closest->perTranslation, (Vec3{}));
 }
 
-/// A vertex alone proves it, which is looked at before any triangle is.
+/// A vertex alone proves it, which is examined before any triangle is.
 TEST(Clearance, OfATouchByAVertexHasThatVertex) {
     const VolumeData volume = makeBytes(unitGrid(8), [](auto x, auto, auto) { return x > 3 ? 255 : 0; });
     const Held held(makeFlat(0.7, 0.9, 0.6, 0.8, 0.5), volume, byteRamp(), {0, 255});
-    const PairClearance found = held.measure(identity());
-    EXPECT_EQ(found.bounds.hi, 0);
+    const PairDistance found = held.measure(identity());
+    EXPECT_EQ(found.bounds.upper, 0);
     ASSERT_TRUE(found.closest);
     EXPECT_EQ(found.closest->mesh, found.closest->volume);
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -261,11 +262,11 @@ TEST(Clearance, BeyondTheMaximumIsNotMeasured) {
     const auto at = [&](double maximum) { return held.measure(translation({7.5 + 6, 4, 4}), {.maximum = maximum}); };
     expectAbout(6, at(7));
     expectAbout(6, at(6.001));
-    EXPECT_EQ(at(5.99).bounds.lo, 5.99);
-    EXPECT_EQ(at(5.99).bounds.hi, kInfinity);
-    EXPECT_EQ(at(5.99).end, ClearanceEnd::Beyond);
-    EXPECT_EQ(at(1).bounds.lo, 1);
-    EXPECT_EQ(held.measure(translation({4, 4, 4}), {.maximum = 1}).bounds.hi, 0);
+    EXPECT_EQ(at(5.99).bounds.lower, 5.99);
+    EXPECT_EQ(at(5.99).bounds.upper, kInfinity);
+    EXPECT_EQ(at(5.99).end, StopReason::Beyond);
+    EXPECT_EQ(at(1).bounds.lower, 1);
+    EXPECT_EQ(held.measure(translation({4, 4, 4}), {.maximum = 1}).bounds.upper, 0);
 }
 
 /// With few steps the bounds are wide, and still bounds.
@@ -274,15 +275,15 @@ TEST(Clearance, ABudgetLeavesBounds) {
     const HalfSpace scene(random, randomGrid(random, 30));
     const Held held(makeCube(-3, 3), scene.volume, scene.points, scene.domain, 1024);
     const Mat4 pose = poseAlong(scene.outward, scene.at(12));
-    const double whole = held.measure(pose).bounds.hi;
+    const double whole = held.measure(pose).bounds.upper;
     std::size_t cut = 0;
     for (std::uint64_t steps = 1; steps < 1000; steps *= 2) {
-        const PairClearance found = held.measure(pose, {.mostSteps = steps});
-        EXPECT_LE(found.bounds.lo, whole);
-        EXPECT_GE(found.bounds.hi, whole - kDefaultTolerance);
-        EXPECT_EQ(found.end,
-                  found.bounds.hi - found.bounds.lo <= kDefaultTolerance ? ClearanceEnd::Closed : ClearanceEnd::Budget);
-        cut += found.end == ClearanceEnd::Budget ? 1 : 0;
+        const PairDistance found = held.measure(pose, {.mostSteps = steps});
+        EXPECT_LE(found.bounds.lower, whole);
+        EXPECT_GE(found.bounds.upper, whole - kDefaultTolerance);
+        EXPECT_EQ(found.end, found.bounds.upper - found.bounds.lower <= kDefaultTolerance ? StopReason::Closed
+                                                                                          : StopReason::Budget);
+        cut += found.end == StopReason::Budget ? 1 : 0;
     }
     EXPECT_GT(cut, 1U);
 }

@@ -2,6 +2,7 @@
 // The closest points, where the opaque part is a sheet that no rounded value hits.
 #include "cpu/scenes/engine_fixture.h"
 #include "cpu/scenes/oracle_scenes.h"
+#include "support/host_meters.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +14,7 @@ namespace voxtact::test {
 namespace {
 
 /// Opaque is one entry of the table alone, and of that its very value: a plane across x.
-TEST(ClosestPoints, OfASheetWithoutThicknessAreAsFarApartAsTheBoundsSay) {
+TEST(WitnessPoints, OfASheetWithoutThicknessAreAsFarApartAsTheBoundsSay) {
     constexpr double kOpaque = 40.5;
     constexpr double kRise = 16; // for each voxel along x
     Grid grid;
@@ -33,15 +34,15 @@ TEST(ClosestPoints, OfASheetWithoutThicknessAreAsFarApartAsTheBoundsSay) {
         const cpu::Mesh mesh = take(cpu::Mesh::create(data.view()));
         const Mat4 pose = identity();
         const cpu::BatchItem item{&mesh, &volume, &function, {&pose, 1}};
-        const PairClearance says = take(meter.measure({{&item, 1}, {}, 1})).pairs.at(0);
-        EXPECT_EQ(says.end, ClearanceEnd::Closed);
-        EXPECT_LE(says.bounds.lo, truth + 1e-12);
-        EXPECT_GE(says.bounds.hi, truth - 1e-12);
+        const PairDistance says = take(meter.measure({{&item, 1}, {}, 1})).pairs.at(0);
+        EXPECT_EQ(says.end, StopReason::Closed);
+        EXPECT_LE(says.bounds.lower, truth + 1e-12);
+        EXPECT_GE(says.bounds.upper, truth - 1e-12);
         ASSERT_TRUE(says.closest);
         const Vec3& onMesh = says.closest->mesh;
         const Vec3& inVolume = says.closest->volume;
         const double apart = std::hypot(onMesh[0] - inVolume[0], onMesh[1] - inVolume[1], onMesh[2] - inVolume[2]);
-        EXPECT_NEAR(apart, says.bounds.hi, 1e-11);
+        EXPECT_NEAR(apart, says.bounds.upper, 1e-11);
         EXPECT_NEAR(inVolume[0], kOpaque / kRise, 1e-6);
     }
 }

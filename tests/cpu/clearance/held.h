@@ -3,6 +3,7 @@
 
 #include "cpu/scenes/engine_fixture.h"
 #include "cpu/scenes/oracle_scenes.h"
+#include "support/host_meters.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -21,14 +22,14 @@ struct Held {
         : mesh(take(cpu::Mesh::create(data.view()))), volume(take(cpu::Volume::create(image.view()))),
           function(take(cpu::TransferFunction::create({points, domain, entries}))) {}
 
-    [[nodiscard]] std::vector<PairClearance> measure(std::span<const Mat4> poses, const cpu::ClearanceDesc& desc = {},
-                                                     double threshold = 0.5) const {
+    [[nodiscard]] std::vector<PairDistance> measure(std::span<const Mat4> poses, const cpu::ClearanceDesc& desc = {},
+                                                    double threshold = 0.5) const {
         cpu::ClearanceMeter meter = take(cpu::ClearanceMeter::create(desc));
         const cpu::BatchItem item{&mesh, &volume, &function, poses};
         return take(meter.measure({std::span(&item, 1), {}, threshold})).pairs;
     }
-    [[nodiscard]] PairClearance measure(const Mat4& pose, const cpu::ClearanceDesc& desc = {},
-                                        double threshold = 0.5) const {
+    [[nodiscard]] PairDistance measure(const Mat4& pose, const cpu::ClearanceDesc& desc = {},
+                                       double threshold = 0.5) const {
         return measure(std::span(&pose, 1), desc, threshold).at(0);
     }
 
@@ -37,11 +38,11 @@ struct Held {
     cpu::TransferFunction function;
 };
 
-inline void expectAbout(double wanted, const PairClearance& found, double slack = 1e-5) {
-    EXPECT_LE(found.bounds.lo, wanted + slack);
-    EXPECT_GE(found.bounds.hi, wanted - slack);
-    EXPECT_LE(found.bounds.hi - found.bounds.lo, kDefaultTolerance);
-    EXPECT_EQ(found.end, ClearanceEnd::Closed);
+inline void expectAbout(double wanted, const PairDistance& found, double slack = 1e-5) {
+    EXPECT_LE(found.bounds.lower, wanted + slack);
+    EXPECT_GE(found.bounds.upper, wanted - slack);
+    EXPECT_LE(found.bounds.upper - found.bounds.lower, kDefaultTolerance);
+    EXPECT_EQ(found.end, StopReason::Closed);
 }
 
 inline MeshData oneTriangle(const Vec3& a, const Vec3& b, const Vec3& c) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// A mesh under a hand: what a ClearanceTracker says at every pose, against detectors and meters that know no history.
+// A mesh under a hand: what a DistanceTracker says at every pose, against detectors and meters that know no history.
 #include "cpu/scenes/certified_scenes.h"
 #include "cpu/scenes/engine_fixture.h"
 #include "cpu/scenes/random_scene.h"
+#include "support/host_meters.h"
 #include "support/scenes.h"
 #include "support/special.h"
 
@@ -35,8 +36,8 @@ struct Scene {
     cpu::TransferFunction function;
 };
 
-cpu::ClearanceTracker makeTracker(const cpu::TrackerDesc& desc = {}) {
-    return take(cpu::ClearanceTracker::create(desc));
+cpu::DistanceTracker makeTracker(const cpu::TrackerDesc& desc = {}) {
+    return take(cpu::DistanceTracker::create(desc));
 }
 
 /// Of the floor at a threshold of a half: between voxel 19, which is 0, and voxel 20, which is 255.
@@ -44,16 +45,16 @@ constexpr double kFloor = 19.5;
 
 TEST(Tracker, WhatIsFarIsNotLookedAtAgain) {
     const Scene scene;
-    cpu::ClearanceTracker tracker = makeTracker();
+    cpu::DistanceTracker tracker = makeTracker();
     int searches = 0;
     for (int tick = 0; tick <= 1000; ++tick) {
         const double z = 0.01 * tick;
         const Mat4 pose = translation({15, 15, z});
-        const TrackedClearance found = take(tracker.track(scene.at(pose), 0.5));
+        const TrackedDistance found = take(tracker.track(scene.at(pose), 0.5));
         SCOPED_TRACE(z);
         EXPECT_FALSE(found.hit || found.possible);
-        EXPECT_LE(found.bounds.lo, kFloor - z + 0.01);
-        EXPECT_GE(found.bounds.hi, kFloor - z - 0.01);
+        EXPECT_LE(found.bounds.lower, kFloor - z + 0.01);
+        EXPECT_GE(found.bounds.upper, kFloor - z - 0.01);
         searches += found.searched ? 1 : 0;
     }
     // The first one goes as far as it must; the next, three quarters of that on, no farther than 32 moves.
@@ -62,28 +63,28 @@ TEST(Tracker, WhatIsFarIsNotLookedAtAgain) {
 
 TEST(Tracker, WhatStandsStillIsLookedAtOnce) {
     const Scene scene;
-    cpu::ClearanceTracker tracker = makeTracker();
+    cpu::DistanceTracker tracker = makeTracker();
     const Mat4 pose = translation({15, 15, 19});
     EXPECT_TRUE(take(tracker.track(scene.at(pose), 0.5)).searched);
-    const TrackedClearance again = take(tracker.track(scene.at(pose), 0.5));
+    const TrackedDistance again = take(tracker.track(scene.at(pose), 0.5));
     EXPECT_FALSE(again.searched);
-    EXPECT_GT(again.bounds.lo, 0.3);
-    EXPECT_LT(again.bounds.hi, 0.52);
+    EXPECT_GT(again.bounds.lower, 0.3);
+    EXPECT_LT(again.bounds.upper, 0.52);
 }
 
 TEST(Tracker, ItTouchesWhereADetectorSaysSo) {
     const Scene scene;
-    cpu::ClearanceTracker tracker = makeTracker();
+    cpu::DistanceTracker tracker = makeTracker();
     cpu::Detector detector =
-        take(cpu::Detector::create({.threads = 1, .stopAtFirst = true, .projection = Projection::Conservative}));
+        take(cpu::Detector::create({.threads = 1, .stopAtFirst = true, .projection = Projection::Certified}));
     int hits = 0;
     for (int tick = 0; tick < 400; ++tick) {
         const Mat4 pose = translation({15, 15, kFloor + 0.5 * std::sin(0.05 * tick)});
         const cpu::BatchItem item = scene.at(pose);
-        const TrackedClearance found = take(tracker.track(item, 0.5));
+        const TrackedDistance found = take(tracker.track(item, 0.5));
         const PairAnswer wanted = take(detector.detect({std::span(&item, 1), {}, 0.5})).pairs[0];
         EXPECT_EQ(found.hit, wanted.hit) << tick;
-        EXPECT_EQ(found.bounds.hi == 0, wanted.hit) << tick;
+        EXPECT_EQ(found.bounds.upper == 0, wanted.hit) << tick;
         hits += found.hit ? 1 : 0;
     }
     EXPECT_GT(hits, 100);
@@ -103,7 +104,7 @@ TEST(Tracker, IsNeverWrongOnRandomWalks) {
             made.function = take(cpu::TransferFunction::create({c.scene.points, c.scene.domain, c.scene.tableSize}));
             return made;
         }();
-        cpu::ClearanceTracker tracker = makeTracker();
+        cpu::DistanceTracker tracker = makeTracker();
         cpu::ClearanceMeter meter = take(cpu::ClearanceMeter::create({.threads = 1}));
         Mat4 pose = c.scene.world_from_object;
         const double step = std::pow(10, uniform(random, -3, 0));
@@ -129,16 +130,16 @@ TEST(Tracker, IsNeverWrongOnRandomWalks) {
             pose = multiply(translation({step * direction[0], step * direction[1], step * direction[2]}),
                             multiply(pose, turn));
             const cpu::BatchItem item = scene.at(pose);
-            const TrackedClearance found = take(tracker.track(item, c.scene.threshold));
-            const PairClearance wanted = take(meter.measure({std::span(&item, 1), {}, c.scene.threshold})).pairs[0];
+            const TrackedDistance found = take(tracker.track(item, c.scene.threshold));
+            const PairDistance wanted = take(meter.measure({std::span(&item, 1), {}, c.scene.threshold})).pairs[0];
             SCOPED_TRACE("case " + std::to_string(i) + ", tick " + std::to_string(tick));
             searches += found.searched ? 1 : 0;
             // Both hold the truth.
-            ASSERT_LE(found.bounds.lo, wanted.bounds.hi);
-            ASSERT_GE(found.bounds.hi, wanted.bounds.lo);
-            ASSERT_EQ(found.hit, wanted.bounds.hi == 0);
+            ASSERT_LE(found.bounds.lower, wanted.bounds.upper);
+            ASSERT_GE(found.bounds.upper, wanted.bounds.lower);
+            ASSERT_EQ(found.hit, wanted.bounds.upper == 0);
             if (!found.searched) {
-                ASSERT_GT(found.bounds.lo, 0);
+                ASSERT_GT(found.bounds.lower, 0);
             }
         }
     }
@@ -148,27 +149,27 @@ TEST(Tracker, IsNeverWrongOnRandomWalks) {
 
 TEST(Tracker, ChangesAreSeenAtOnce) {
     Scene scene;
-    cpu::ClearanceTracker tracker = makeTracker();
+    cpu::DistanceTracker tracker = makeTracker();
     const Mat4 pose = translation({15, 15, 5});
-    EXPECT_NEAR(take(tracker.track(scene.at(pose), 0.5)).bounds.hi, kFloor - 5, 0.01);
+    EXPECT_NEAR(take(tracker.track(scene.at(pose), 0.5)).bounds.upper, kFloor - 5, 0.01);
     EXPECT_FALSE(take(tracker.track(scene.at(pose), 0.5)).searched);
 
     // an edit
     ASSERT_TRUE(scene.volume.set(VoxelBox{{14, 14, 8}, {3, 3, 2}}, 255).ok());
-    const TrackedClearance edited = take(tracker.track(scene.at(pose), 0.5));
+    const TrackedDistance edited = take(tracker.track(scene.at(pose), 0.5));
     EXPECT_TRUE(edited.searched);
-    EXPECT_NEAR(edited.bounds.hi, 2.5, 0.01);
+    EXPECT_NEAR(edited.bounds.upper, 2.5, 0.01);
 
     // a threshold: twice as near to the voxel that is opaque
-    const TrackedClearance lower = take(tracker.track(scene.at(pose), 0.25));
+    const TrackedDistance lower = take(tracker.track(scene.at(pose), 0.25));
     EXPECT_TRUE(lower.searched);
-    EXPECT_NEAR(lower.bounds.hi, 2.25, 0.01);
+    EXPECT_NEAR(lower.bounds.upper, 2.25, 0.01);
 
     // a transfer function under which nothing is opaque
     scene.function = take(cpu::TransferFunction::create({std::vector<ControlPoint>{{0, 0}}, {0, 255}, 256}));
-    const TrackedClearance nothing = take(tracker.track(scene.at(pose), 0.25));
+    const TrackedDistance nothing = take(tracker.track(scene.at(pose), 0.25));
     EXPECT_TRUE(nothing.searched);
-    EXPECT_EQ(nothing.bounds.lo, kInfinity);
+    EXPECT_EQ(nothing.bounds.lower, kInfinity);
     EXPECT_FALSE(take(tracker.track(scene.at(translation({15, 15, 25})), 0.25)).searched);
 
     // a mesh, at the address of another
@@ -176,33 +177,33 @@ TEST(Tracker, ChangesAreSeenAtOnce) {
     EXPECT_TRUE(take(tracker.track(other.at(pose), 0.5)).searched);
     const MeshData longer = makeRectangle({0, 0, 0}, {1, 0, 0}, {1, 0, 10}, {0, 0, 10});
     other.mesh = take(cpu::Mesh::create(longer.view()));
-    const TrackedClearance nearer = take(tracker.track(other.at(pose), 0.5));
+    const TrackedDistance nearer = take(tracker.track(other.at(pose), 0.5));
     EXPECT_TRUE(nearer.searched);
-    EXPECT_NEAR(nearer.bounds.hi, kFloor - 15, 0.01);
+    EXPECT_NEAR(nearer.bounds.upper, kFloor - 15, 0.01);
 }
 
 TEST(Tracker, LooksNoFartherThanAsked) {
     const Scene scene;
-    cpu::ClearanceTracker tracker = makeTracker({.maximum = 2});
-    const TrackedClearance found = take(tracker.track(scene.at(translation({15, 15, 5})), 0.5));
+    cpu::DistanceTracker tracker = makeTracker({.maximum = 2});
+    const TrackedDistance found = take(tracker.track(scene.at(translation({15, 15, 5})), 0.5));
     EXPECT_TRUE(found.searched);
-    EXPECT_GE(found.bounds.lo, 2);
-    EXPECT_LE(found.bounds.lo, kFloor - 5);
+    EXPECT_GE(found.bounds.lower, 2);
+    EXPECT_LE(found.bounds.lower, kFloor - 5);
 }
 
 TEST(Tracker, RefusesWhatCannotBe) {
     using testing::HasSubstr;
     using testing::StartsWith;
     for (const double maximum : {0.0, -1.0, std::nan("")}) {
-        const auto refused = cpu::ClearanceTracker::create({.maximum = maximum});
+        const auto refused = cpu::DistanceTracker::create({.maximum = maximum});
         ASSERT_FALSE(refused.ok());
-        EXPECT_THAT(refused.error().text, HasSubstr("is not above 0"));
+        EXPECT_THAT(refused.error().text, HasSubstr("is not a number above 0 mm"));
     }
-    EXPECT_FALSE(cpu::ClearanceTracker::create({.mostSteps = 0}).ok());
-    EXPECT_FALSE(cpu::ClearanceTracker::create({.resolution = 2}).ok());
+    EXPECT_FALSE(cpu::DistanceTracker::create({.maxSteps = 0}).ok());
+    EXPECT_FALSE(cpu::DistanceTracker::create({.resolution = 2}).ok());
 
     const Scene scene;
-    cpu::ClearanceTracker tracker = makeTracker();
+    cpu::DistanceTracker tracker = makeTracker();
     const std::vector<Mat4> two(2, identity());
     const auto several = tracker.track({&scene.mesh, &scene.volume, &scene.function, two}, 0.5);
     ASSERT_FALSE(several.ok());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The engine against the reference, bit for bit: whatever it skips, and whatever instructions it uses.
 #include "cpu/scenes/random_scene.h"
+#include "support/host_meters.h"
 #include "support/scenes.h"
 #include "voxtact/samples.h"
 

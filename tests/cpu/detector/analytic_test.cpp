@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Scenes whose counts are known, for the engine and the reference alike.
-#include "cpu/raster/reference.h"
 #include "cpu/scenes/engine_fixture.h"
 #include "cpu/scenes/random_scene.h"
+#include "host/count/reference.h"
+#include "support/host_meters.h"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Refusals: one line each, that say what; the next call works.
 #include "cpu/scenes/engine_fixture.h"
+#include "support/host_meters.h"
 
 #include <gmock/gmock.h>
 
@@ -45,7 +46,7 @@ TEST_F(CpuBadInput, Viewports) {
 }
 
 TEST_F(CpuBadInput, MoreThreadsThanAnybodyHas) {
-    constexpr std::uint32_t kTooMany = cpu::kMostThreads + 1;
+    constexpr std::uint32_t kTooMany = cpu::kMaxThreads + 1;
     const auto expectRefused = [](const auto& made) {
         ASSERT_FALSE(made.ok());
         EXPECT_EQ(made.error().code, ErrorCode::LimitExceeded);
@@ -83,9 +84,10 @@ TEST_F(CpuBadInput, CamerasAndPoses) {
 
 TEST_F(CpuBadInput, ThresholdsAndNullObjects) {
     EXPECT_THAT(refused([](auto& batch, auto&) { batch.threshold = 1.5; }).text, HasSubstr("1.5"));
-    EXPECT_THAT(refused([](auto& batch, auto&) { batch.threshold = -0.1; }).text, HasSubstr("outside [0, 1]"));
+    EXPECT_THAT(refused([](auto& batch, auto&) { batch.threshold = -0.1; }).text,
+                HasSubstr("is not a number from 0 to 1"));
     EXPECT_THAT(refused([](auto& batch, auto&) { batch.threshold = std::numeric_limits<double>::quiet_NaN(); }).text,
-                HasSubstr("outside [0, 1]"));
+                HasSubstr("is not a number from 0 to 1"));
     EXPECT_THAT(refused([](auto&, auto& bad) { bad.mesh = nullptr; }).text, HasSubstr("batch item 0"));
     EXPECT_THAT(refused([](auto&, auto& bad) { bad.volume = nullptr; }).text, HasSubstr("null"));
     EXPECT_THAT(refused([](auto&, auto& bad) { bad.transferFunction = nullptr; }).text, HasSubstr("null"));

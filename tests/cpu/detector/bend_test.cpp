@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// A mesh whose vertices come elsewhere is the mesh that is made afresh of them.
-#include "cpu/scene/scene_impl.h"
+// A mesh whose vertices come elsewhere is the mesh that is newly made of them.
 #include "cpu/scenes/bent_meshes.h"
 #include "cpu/scenes/needle_fixture.h"
 #include "cpu/scenes/random_scene.h"
+#include "host/scene/scene_impl.h"
+#include "support/host_meters.h"
 
 #include <gmock/gmock.h>
 
@@ -20,7 +21,7 @@ TEST(BentMesh, CountsAndOutputsAreThoseOfAMeshMadeAfresh) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     std::mt19937_64 random(seed);
     std::vector<cpu::Detector> detectors;
-    for (const Projection projection : {Projection::View, Projection::DominantAxis, Projection::Conservative}) {
+    for (const Projection projection : {Projection::View, Projection::DominantAxis, Projection::Certified}) {
         detectors.push_back(
             take(cpu::Detector::create({.threads = 2,
                                         .projection = projection,
@@ -75,15 +76,15 @@ TEST(BentMesh, ClearancesHoldForBoth) {
         const cpu::Mesh fresh = take(cpu::Mesh::create(data.view()));
         const cpu::BatchItem items[] = {{&mesh, &volume, &function, scene.poses},
                                         {&fresh, &volume, &function, scene.poses}};
-        const ClearanceAnswer answer = take(meter.measure({.items = items, .view = {}, .threshold = scene.threshold}));
+        const DistanceAnswer answer = take(meter.measure({.items = items, .view = {}, .threshold = scene.threshold}));
         for (std::size_t i = 0; i < scene.poses.size(); ++i) {
-            const ClearanceBounds& a = answer.pairs[i].bounds;
-            const ClearanceBounds& b = answer.pairs[i + scene.poses.size()].bounds;
+            const Bounds& a = answer.pairs[i].bounds;
+            const Bounds& b = answer.pairs[i + scene.poses.size()].bounds;
             // Both hold the truth, so that they overlap.
-            EXPECT_LE(a.lo, b.hi);
-            EXPECT_LE(b.lo, a.hi);
-            EXPECT_EQ(a.hi == 0, b.hi == 0);
-            apart += a.lo > 0 && std::isfinite(a.hi) ? 1U : 0U;
+            EXPECT_LE(a.lower, b.upper);
+            EXPECT_LE(b.lower, a.upper);
+            EXPECT_EQ(a.upper == 0, b.upper == 0);
+            apart += a.lower > 0 && std::isfinite(a.upper) ? 1U : 0U;
         }
     }
     EXPECT_GT(apart, 10U);
@@ -97,21 +98,21 @@ TEST_F(BentNeedle, TouchesWhereItsTipComes) {
         const cpu::BatchItem one = item();
         return take(meter.measure({.items = {&one, 1}, .view = {}})).pairs.front().bounds;
     };
-    const double straight = clearance().lo;
+    const double straight = clearance().lower;
     EXPECT_GT(straight, 3);
     for (const double by : {1.0, 2.5, -1.0, 0.0}) {
         ASSERT_TRUE(mesh_.update(deflected(by)).ok());
         // Somewhat less where the tip is the nearest: it is narrower than the shaft.
-        EXPECT_NEAR(clearance().lo, straight - std::max(by, 0.0), 0.3) << by;
+        EXPECT_NEAR(clearance().lower, straight - std::max(by, 0.0), 0.3) << by;
     }
     ASSERT_TRUE(mesh_.update(deflected(straight + 1)).ok());
-    EXPECT_EQ(clearance().hi, 0);
+    EXPECT_EQ(clearance().upper, 0);
     ASSERT_TRUE(mesh_.update(data_.positions).ok());
-    EXPECT_EQ(clearance().lo, straight);
+    EXPECT_EQ(clearance().lower, straight);
 }
 
 TEST_F(BentNeedle, ATrackerSeesIt) {
-    cpu::ClearanceTracker tracker = take(cpu::ClearanceTracker::create());
+    cpu::DistanceTracker tracker = take(cpu::DistanceTracker::create());
     EXPECT_FALSE(take(tracker.track(item())).hit);
     EXPECT_FALSE(take(tracker.track(item())).searched);
     ASSERT_TRUE(mesh_.update(deflected(6)).ok());
@@ -122,7 +123,7 @@ TEST_F(BentNeedle, WhatIsRefusedLeavesItAsItWas) {
     const auto text = [](const Result<void>& updated) { return updated.ok() ? "" : updated.error().text; };
     const std::uint64_t before = mesh_.impl().id;
     const std::vector<float> x = mesh_.impl().x;
-    std::vector<float> positions = deflected(6);
+    std::vector<double> positions = deflected(6);
     positions.pop_back();
     EXPECT_THAT(text(mesh_.update(positions)), HasSubstr("coordinates, the mesh has"));
     EXPECT_THAT(text(mesh_.update({})), HasSubstr("0 coordinates"));
@@ -137,8 +138,8 @@ TEST(BentMesh, BoxesAreThoseOfItsClustersAgain) {
     const MeshData data = take(makeEllipsoid(3000));
     const cpu::Mesh fresh = take(cpu::Mesh::create(data.view()));
     cpu::Mesh mesh = take(cpu::Mesh::create(data.view()));
-    std::vector<float> away = data.positions;
-    for (float& coordinate : away) {
+    std::vector<double> away = data.positions;
+    for (double& coordinate : away) {
         coordinate = 3 * coordinate + 50;
     }
     ASSERT_TRUE(mesh.update(away).ok());

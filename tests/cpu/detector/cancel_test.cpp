@@ -2,6 +2,8 @@
 // A call of the host engine that another thread ends: soon, and without a trace in the answers that follow.
 #include "cpu/scenes/engine_fixture.h"
 #include "cpu/scenes/oracle_scenes.h"
+#include "host/cancel.h"
+#include "support/host_meters.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -104,11 +106,11 @@ class Cancel : public testing::Test {
 };
 
 TEST_F(Cancel, ACertifiedCount) {
-    expectDetectorCancelled({.threads = 2, .projection = Projection::Conservative});
+    expectDetectorCancelled({.threads = 2, .projection = Projection::Certified});
 }
 
 TEST_F(Cancel, CertifiedContacts) {
-    expectDetectorCancelled({.threads = 1, .projection = Projection::Conservative, .outputs = {.contacts = true}});
+    expectDetectorCancelled({.threads = 1, .projection = Projection::Certified, .outputs = {.contacts = true}});
 }
 
 TEST_F(Cancel, AView) {
@@ -127,9 +129,21 @@ TEST_F(Cancel, AnArea) {
     expectCancelled([&](const cpu::Batch& asked) { return meter.measureLabels(asked, labels); });
 }
 
+TEST(Cancellation, WhatWasSeenStaysSeen) {
+    std::atomic<bool> flag{false};
+    const cpu::Cancellation cancel(&flag);
+    EXPECT_FALSE(cancel.seen());
+    flag = true;
+    EXPECT_TRUE(cancel.seen());
+    flag = false;
+    EXPECT_TRUE(cancel.seen());
+    EXPECT_FALSE(cpu::Cancellation(&flag).seen());
+    EXPECT_FALSE(cpu::Cancellation(nullptr).seen());
+}
+
 TEST_F(Cancel, AFlagThatIsTakenBackEndsTheCallAllTheSame) {
     // Now and then set for a moment: threads leave out the rest, and at the end it is most likely not set.
-    for (const Projection projection : {Projection::Conservative, Projection::View}) {
+    for (const Projection projection : {Projection::Certified, Projection::View}) {
         cpu::Detector detector = take(cpu::Detector::create({.threads = 2, .projection = projection}));
         for (int time = 0; time < 4; ++time) {
             std::atomic<bool> cancel{false};

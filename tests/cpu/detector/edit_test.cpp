@@ -2,9 +2,10 @@
 // A volume edited in place is the volume that is created from the edited voxels.
 #include "core/volume/edit_rows.h"
 #include "core/volume/voxel_value.h"
-#include "cpu/scene/scene_impl.h"
 #include "cpu/scenes/engine_fixture.h"
 #include "cpu/scenes/random_scene.h"
+#include "host/scene/scene_impl.h"
+#include "support/host_meters.h"
 #include "support/special.h"
 
 #include <gmock/gmock.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The text of shaders/exact.h itself: what neither counts nor the oracle tell apart.
+// The text of src/exact/exact.h itself: what neither counts nor the oracle tell apart.
 #include "cpu/scenes/random_scene.h"
-#include "exact.h"
+#include "exact/exact.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>

@@ -6,6 +6,7 @@
 #include "cpu/scenes/random_scene.h"
 #include "oracle/oracle.h"
 #include "support/contact_scenes.h"
+#include "support/host_meters.h"
 
 #include <gmock/gmock.h>
 
@@ -102,7 +103,7 @@ bool reachesFar(const RandomScene& scene, std::uint32_t triangle) {
     double nearest = std::numeric_limits<double>::infinity();
     double farthest = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-        const float* at =
+        const double* at =
             scene.mesh.positions.data() + std::size_t{3} * scene.mesh.indices[std::size_t{3} * triangle + i];
         const auto row = [&](std::size_t r) {
             return clip_from_object[r] * at[0] + clip_from_object[4 + r] * at[1] + clip_from_object[8 + r] * at[2] +
@@ -324,8 +325,8 @@ TEST(CpuOutputs, AFineImageHasFineSteps) {
     for (double& place : scene.volume.grid.origin) {
         place *= kSmall;
     }
-    for (float& place : scene.mesh.positions) {
-        place *= static_cast<float>(kSmall);
+    for (double& place : scene.mesh.positions) {
+        place = static_cast<float>(place * kSmall);
     }
     for (std::size_t column = 0; column < 3; ++column) {
         for (std::size_t row = 0; row < 3; ++row) {

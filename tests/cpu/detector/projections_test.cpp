@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The projections two-view and dominant-axis by the engine: against the reference and the oracle, and where the counts
 // are known.
-#include "cpu/raster/reference.h"
 #include "cpu/scenes/engine_fixture.h"
 #include "cpu/scenes/random_scene.h"
+#include "host/count/reference.h"
 #include "oracle/oracle.h"
+#include "support/host_meters.h"
 #include "voxtact/samples.h"
 
 #include <gmock/gmock.h>
@@ -40,7 +41,7 @@ std::vector<std::uint64_t> engineCounts(const RandomScene& scene, cpu::DetectorD
 /// As many samples as the volume's size allows for in a quick test.
 std::uint32_t randomSamples(std::mt19937_64& random, const Grid& grid) {
     const std::uint32_t longest = std::max({grid.size[0], grid.size[1], grid.size[2]});
-    const std::uint32_t most = std::clamp(256 / longest, 1U, kMostSamplesPerVoxel);
+    const std::uint32_t most = std::clamp(256 / longest, 1U, kMaxSamplesPerVoxel);
     return 1 + static_cast<std::uint32_t>(below(random, most));
 }
 
@@ -271,7 +272,7 @@ TEST(Projections, BadOnesAreRefused) {
     ASSERT_FALSE(answer.ok());
     EXPECT_EQ(answer.error().code, ErrorCode::LimitExceeded);
     EXPECT_THAT(answer.error().text, HasSubstr("16 samples per voxel needs a viewport of 16400x16400"));
-    // The camera is looked at where there is one.
+    // The camera is examined where there is one.
     cpu::Detector both = take(cpu::Detector::create({.projection = Projection::TwoView}));
     EXPECT_THAT(both.detect({std::span(&item, 1), {}, 0.5}).error().text, HasSubstr("singular"));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cpu/thread_pool.h"
+#include "host/thread_pool.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ namespace {
 using cpu::ThreadPool;
 using cpu::WakeOthers;
 
-/// Pieces that are numbered, and done by whoever asks for one.
+/// Pieces that are numbered, and done by the thread that asks for one.
 class Pieces {
   public:
     explicit Pieces(std::size_t count) : times_(count) {}
@@ -154,7 +154,7 @@ TEST(ThreadPoolTest, OthersComeAtOnceWhereThereAreMorePieces) {
     EXPECT_TRUE(meets(pool, WakeOthers::Predicted));
 }
 
-// Whoever did the pieces of the calls before, even if it was not the caller.
+// Whichever thread did the pieces of the calls before, even if it was not the caller.
 TEST(ThreadPoolTest, OthersComeAtOnceAfterLongCalls) {
     ThreadPool pool(2);
     for (int round = 0; round < 200; ++round) {
@@ -191,7 +191,7 @@ TEST(ThreadPoolTest, WhoComesTooLateDoesNothing) {
     EXPECT_EQ(late, 0);
 }
 
-// Whatever piece it is, and whoever does it; the pool goes on after that.
+// Whatever piece it is, and whichever thread does it; the pool goes on after that.
 TEST(ThreadPoolTest, WhatAPieceThrowsComesOutWhenAllAreAtRest) {
     std::mt19937_64 random(testSeed());
     ThreadPool pool(3);

@@ -2,6 +2,7 @@
 #include "cpu/judges/certified_judge.h"
 
 #include "cpu/scenes/engine_fixture.h"
+#include "support/host_meters.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +31,7 @@ void judgePair(const PairAnswer& pair, Certainty oracle, std::ostream& out) {
     if (pair.possible && pair.exactness == Exactness::Exact) {
         out << "possible, and an exact count\n";
     }
-    if (pair.projection != Projection::Conservative) {
+    if (pair.projection != Projection::Certified) {
         out << "the projection is " << toString(pair.projection) << "\n";
     }
 }
@@ -70,8 +71,9 @@ void judgeCells(std::size_t triangle, std::uint64_t count, bool exact, const Cel
     }
 }
 
-/// How far the engine may place a triangle from where it is (shaders/certified.h): twice its delta, in voxels. Rounding
-/// of the vertices in proportion to the terms of their transform, and clipping in proportion to the triangle's side.
+/// How far the engine may place a triangle from where it is (src/exact/certified.h): twice its delta, in voxels.
+/// Rounding of the vertices in proportion to the terms of their transform, and clipping in proportion to the triangle's
+/// side.
 double displacement(const CertifiedCase& c, std::size_t triangle) {
     const Mat4 texture_from_world = textureFromWorld(c.scene.volume.grid).value();
     double terms = 0;
@@ -80,7 +82,7 @@ double displacement(const CertifiedCase& c, std::size_t triangle) {
         double least = 1e300;
         double greatest = -1e300;
         for (std::size_t corner = 0; corner < 3; ++corner) {
-            const float* at =
+            const double* at =
                 c.scene.mesh.positions.data() + std::size_t{3} * c.scene.mesh.indices[3 * triangle + corner];
             double place = 0;
             double magnitude = 0.5;
@@ -89,7 +91,7 @@ double displacement(const CertifiedCase& c, std::size_t triangle) {
                 for (std::size_t k = 0; k < 4; ++k) {
                     element += texture_from_world[4 * k + axis] * c.scene.world_from_object[4 * column + k];
                 }
-                const double term = element * c.scene.volume.grid.size[axis] * (column < 3 ? double{at[column]} : 1.0);
+                const double term = element * c.scene.volume.grid.size[axis] * (column < 3 ? at[column] : 1.0);
                 place += term;
                 magnitude += std::abs(term);
             }

@@ -4,6 +4,7 @@
 #include "cpu/scenes/certified_scenes.h"
 
 #include "oracle/certified_oracle.h"
+#include "support/host_meters.h"
 #include "voxtact/cpu.h"
 
 #include <string>
@@ -19,7 +20,7 @@ struct CellCount {
 /// Of each triangle.
 [[nodiscard]] std::vector<CellCount> countCells(const CertifiedCase& c);
 
-/// What an engine says of one pair in the projection `conservative`.
+/// What an engine says of one pair in the projection `certified`.
 struct EngineSays {
     PairAnswer pair;
     std::vector<TouchedTriangle> triangles;

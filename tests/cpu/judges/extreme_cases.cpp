@@ -2,6 +2,7 @@
 #include "cpu/judges/extreme_cases.h"
 
 #include "cpu/scenes/engine_fixture.h"
+#include "support/host_meters.h"
 
 #include <algorithm>
 #include <array>
@@ -153,13 +154,11 @@ void randomFunction(Random& random, ExtremeCase& c) {
     if (!ascending) { // a domain that doubles cannot divide
         c.points = {{c.domain.lo, 0}, {c.domain.hi, 1}};
     }
-    c.table = take(sampleTable({c.points, c.domain, c.tableSize}));
-    const float entry = c.table[chance(random, 0.5) ? std::min(at, c.table.size() - 1) : below(random, c.table.size())];
-    const float other = static_cast<float>(uniform(random, 0, 1));
-    c.threshold = pick(random, {entry, std::nextafter(entry, 2.0F), std::nextafter(entry, -1.0F), other});
-    const bool denormal = c.threshold < std::numeric_limits<float>::min();
-    c.threshold = denormal ? (chance(random, 0.5) ? 0.0F : entry) : std::min(c.threshold, 1.0F);
-    c.threshold = c.threshold < std::numeric_limits<float>::min() ? 0.0F : c.threshold;
+    const double opacity =
+        c.points[chance(random, 0.5) ? std::min(at, c.points.size() - 1) : below(random, c.points.size())].opacity;
+    c.threshold =
+        pick(random, {opacity, std::nextafter(opacity, 2.0), std::nextafter(opacity, -1.0), uniform(random, 0, 1)});
+    c.threshold = std::clamp(c.threshold, 0.0, 1.0);
 }
 
 /// Along an axis, in index space: centres, faces, halves, hardly beside them, anywhere.
@@ -278,7 +277,7 @@ const char* textOf(const PairAnswer& pair) {
 
 cpu::Detector detectorOf(bool stopAtFirst) {
     cpu::DetectorDesc desc;
-    desc.projection = Projection::Conservative;
+    desc.projection = Projection::Certified;
     desc.stopAtFirst = stopAtFirst;
     desc.threads = 1;
     return take(cpu::Detector::create(desc));
@@ -316,12 +315,11 @@ void ExtremeTrial::run(std::uint64_t seed, std::uint64_t number) {
     const cpu::TransferFunction function = take(cpu::TransferFunction::create({c.points, c.domain, c.tableSize}));
     const cpu::BatchItem item{&mesh, &volume, &function, {&c.world_from_object, 1}};
     const auto ask = [&](cpu::Detector& detector) {
-        return take(detector.detect({{&item, 1}, {}, static_cast<double>(c.threshold)})).pairs.at(0);
+        return take(detector.detect({{&item, 1}, {}, c.threshold})).pairs.at(0);
     };
     const PairAnswer pair = ask(count_);
     const PairAnswer quick = ask(yesNo_);
-    const Judgement judged =
-        judge({c.mesh.view(), c.volume.view(), c.world_from_object, c.domain, c.table, c.threshold});
+    const Judgement judged = judge({c.mesh.view(), c.volume.view(), c.world_from_object, c.points, c.threshold});
     const bool wrong = (pair.hit && judged == Judgement::None) ||
                        (!pair.hit && !pair.possible && judged == Judgement::Touches) || pair.hit != quick.hit ||
                        pair.possible != quick.possible;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cpu/judges/quad_judge.h"
+#include "support/host_meters.h"
 #include "voxtact/cpu.h"
 
 #include <cstdint>
@@ -21,8 +22,7 @@ struct ExtremeCase {
     std::vector<ControlPoint> points;
     ValueRange domain;
     std::uint32_t tableSize = 0;
-    std::vector<float> table;
-    float threshold = 0;
+    double threshold = 0;
 };
 
 /// The same case for the same numbers.

@@ -43,7 +43,8 @@ class Other {
 
   private:
     Vertex shade(std::uint32_t index) const {
-        const float* p = pair_.mesh.positions.data() + std::size_t{3} * index;
+        const double* at = pair_.mesh.positions.data() + std::size_t{3} * index;
+        const std::array<float, 3> p{static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2])};
         const auto row = [p](const Mat4& m, std::size_t r) {
             float sum = static_cast<float>(m[r]) * p[0];
             sum += static_cast<float>(m[4 + r]) * p[1];

@@ -32,7 +32,7 @@ inline double voxelAt(const VolumeView& volume, const std::array<std::int64_t, 3
     return load(float{});
 }
 
-/// The coordinates of the table that a piece has, and how far they may be off.
+/// The values that a piece has, and how far they may be off.
 template <class Real> struct Range {
     std::array<Real, 3> atCorner;
     Real lo;
@@ -40,22 +40,20 @@ template <class Real> struct Range {
     Real error;
 };
 
-/// The interpolant of a cell, in coordinates of the table.
+/// The interpolant of a cell.
 template <class Real> class Cell {
   public:
     Cell(const JudgedPair& pair, const std::array<std::int64_t, 3>& cell) : cell_(cell) {
-        const Real lo = Real(pair.domain.lo);
-        const Real scale = Real(static_cast<double>(pair.table.size())) / (Real(pair.domain.hi) - lo);
         Real least = 0;
         Real most = 0;
         for (std::size_t corner = 0; corner < 8; ++corner) {
             const Real value = Real(
                 voxelAt(pair.volume, {cell[0] + std::int64_t(corner & 1U), cell[1] + std::int64_t(corner >> 1U & 1U),
                                       cell[2] + std::int64_t(corner >> 2U & 1U)}));
-            value_[corner] = (value - lo) * scale - Real(0.5);
+            value_[corner] = value;
             least = corner == 0 ? value_[corner] : std::min(least, value_[corner]);
             most = corner == 0 ? value_[corner] : std::max(most, value_[corner]);
-            error_ = std::max(error_, 8 * kRounding<Real> * ((size(value) + size(lo)) * scale + 1));
+            error_ = std::max(error_, 8 * kRounding<Real> * size(value));
         }
         range_ = most - least;
     }

@@ -12,7 +12,7 @@ namespace quad {
 
 namespace {
 
-/// Voxels: pieces are not halved beyond it. And how many are looked at in a cell.
+/// Voxels: pieces are not halved beyond it. And how many are examined in a cell.
 template <class Real> constexpr double kSmallest = 0x1p-14;
 template <> constexpr double kSmallest<Quad> = 0x1p-44;
 template <class Real> constexpr int kMostPieces = 300;
@@ -245,13 +245,15 @@ const char* toString(Judgement judgement) noexcept {
 }
 
 Judgement judge(const JudgedPair& pair) {
-    const quad::Opaque opaque(pair.table, pair.threshold);
+    const quad::Opaque opaque(pair.points, pair.threshold);
     std::vector<std::array<std::array<float, 3>, 3>> open;
     for (std::size_t triangle = 0; triangle < pair.mesh.indices.size() / 3; ++triangle) {
         std::array<std::array<float, 3>, 3> at{};
         for (std::size_t corner = 0; corner < 3; ++corner) {
             const std::size_t vertex = pair.mesh.indices[3 * triangle + corner];
-            std::copy_n(pair.mesh.positions.begin() + static_cast<std::ptrdiff_t>(3 * vertex), 3, at[corner].begin());
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                at[corner][axis] = static_cast<float>(pair.mesh.positions[3 * vertex + axis]);
+            }
         }
         const Judgement rough = quad::judgeTriangle<double>(pair, opaque, at);
         if (rough == Judgement::Touches) {

@@ -7,14 +7,13 @@
 
 namespace voxtact::test {
 
-/// One pair, and the table and threshold that its voxels are opaque by.
+/// One pair, and the control points and the threshold that its voxels are opaque by.
 struct JudgedPair {
     MeshView mesh;
     VolumeView volume;
     Mat4 world_from_object;
-    ValueRange domain;
-    std::span<const float> table;
-    float threshold;
+    std::span<const ControlPoint> points;
+    double threshold;
 };
 
 enum class Judgement { None, Touches, Undecidable };

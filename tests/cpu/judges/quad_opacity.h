@@ -2,87 +2,73 @@
 #pragma once
 
 #include "cpu/judges/quad_place.h"
+#include "voxtact/data.h"
 
-#include <cstdint>
+#include <algorithm>
 #include <span>
-#include <vector>
 
 namespace voxtact::test::quad {
 
-/// What is opaque by the table.
+/// What is opaque by the control points: linear between them, constant beyond; at a step the greatest counts.
 class Opaque {
   public:
-    Opaque(std::span<const float> table, float threshold) : table_(table), threshold_(threshold), before_{0} {
-        for (const float entry : table) {
-            before_.push_back(before_.back() + (entry >= threshold ? 1 : 0));
-        }
-    }
+    Opaque(std::span<const ControlPoint> points, double threshold) : points_(points), threshold_(threshold) {}
 
-    /// Whether some of the coordinates between may be opaque; of the table's, entry i being at i.
+    /// Whether some of the values between may be opaque.
     template <class Real> [[nodiscard]] bool may(Real lo, Real hi) const {
-        const Real from = clamped(lo);
-        const Real to = clamped(hi);
-        if (among(below(from), above(to)) == 0) {
-            return false;
-        }
-        return some(from, to) || at(from) >= Real(threshold_) - kTable<Real> ||
-               at(to) >= Real(threshold_) - kTable<Real>;
+        return beyond(lo, hi, true) || hasOpaquePoint(lo, hi) || onLines(lo, hi, [&](Real from, Real to) {
+                   return std::max(from, to) >= Real(threshold_) - kOpacity<Real>;
+               });
     }
     template <class Real> [[nodiscard]] bool allOf(Real lo, Real hi) const {
-        const Real from = clamped(lo);
-        const Real to = clamped(hi);
-        const std::int64_t first = below(from);
-        const std::int64_t last = above(to);
-        if (among(first, last) == last - first + 1) {
+        if (lo == hi && hasOpaquePoint(lo, hi)) {
             return true;
         }
-        const std::int64_t inner = above(from);
-        const std::int64_t outer = below(to);
-        return (inner > outer || among(inner, outer) == outer - inner + 1) && surely(from) && surely(to);
+        return !beyond(lo, hi, false) && !onLines(lo, hi, [&](Real from, Real to) {
+            return std::min(from, to) < Real(threshold_) + (from == to ? Real(0) : kOpacity<Real>);
+        });
     }
     template <class Real> [[nodiscard]] bool someOf(Real lo, Real hi) const {
-        if (!(lo <= hi)) {
-            return false;
-        }
-        const Real from = clamped(lo);
-        const Real to = clamped(hi);
-        return some(from, to) || surely(from) || surely(to);
+        return lo <= hi && (hasOpaquePoint(lo, hi) || allOf(lo, lo) || allOf(hi, hi));
     }
 
   private:
-    template <class Real> static constexpr Real kTable = 8 * kRounding<Real>;
+    template <class Real> static constexpr Real kOpacity = 8 * kRounding<Real>;
 
-    template <class Real> [[nodiscard]] Real clamped(Real x) const {
-        const Real last = Real(static_cast<double>(table_.size() - 1));
-        return x > 0 ? (x < last ? x : last) : Real(0);
+    /// Whether there are values beyond the points where the opacity reaches the threshold, or does not.
+    template <class Real> [[nodiscard]] bool beyond(Real lo, Real hi, bool reaches) const {
+        return (lo < Real(points_.front().value) && (points_.front().opacity >= threshold_) == reaches) ||
+               (hi > Real(points_.back().value) && (points_.back().opacity >= threshold_) == reaches);
     }
-    template <class Real> [[nodiscard]] static std::int64_t below(Real x) { return static_cast<std::int64_t>(x); }
-    template <class Real> [[nodiscard]] static std::int64_t above(Real x) {
-        const std::int64_t cut = below(x);
-        return Real(static_cast<double>(cut)) < x ? cut + 1 : cut;
+    template <class Real> [[nodiscard]] bool hasOpaquePoint(Real lo, Real hi) const {
+        return std::ranges::any_of(points_, [&](const ControlPoint& point) {
+            return Real(point.value) >= lo && Real(point.value) <= hi && point.opacity >= threshold_;
+        });
     }
-    /// Opaque entries from `first` to `last`.
-    [[nodiscard]] std::int64_t among(std::int64_t first, std::int64_t last) const {
-        return before_[static_cast<std::size_t>(last + 1)] - before_[static_cast<std::size_t>(first)];
-    }
-    template <class Real> [[nodiscard]] bool some(Real from, Real to) const {
-        return above(from) <= below(to) && among(above(from), below(to)) > 0;
-    }
-    template <class Real> [[nodiscard]] Real at(Real x) const {
-        const auto first = static_cast<std::size_t>(below(x));
-        const auto second = static_cast<std::size_t>(above(x));
-        const Real a = Real(table_[first]);
-        return a + (x - Real(static_cast<double>(first))) * (Real(table_[second]) - a);
-    }
-    template <class Real> [[nodiscard]] bool surely(Real x) const {
-        const std::int64_t first = below(x);
-        const std::int64_t last = above(x);
-        return among(first, last) == last - first + 1 || at(x) >= Real(threshold_) + kTable<Real>;
+    /// Whether `ask(from, to)` is true of the opacities at the ends of some line's part in the range.
+    template <class Real, class Ask> [[nodiscard]] bool onLines(Real lo, Real hi, const Ask& ask) const {
+        for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
+            const Real from = Real(points_[i].value);
+            const Real to = Real(points_[i + 1].value);
+            if (!(from < to) || from > hi || to < lo) {
+                continue;
+            }
+            const Real first = Real(points_[i].opacity);
+            const Real rise = Real(points_[i + 1].opacity) - first;
+            const auto at = [&](Real value) {
+                return value <= from ? first
+                       : value >= to ? Real(points_[i + 1].opacity)
+                                     : first + rise * ((value - from) / (to - from));
+            };
+            if (ask(at(lo), at(hi))) {
+                return true;
+            }
+        }
+        return false;
     }
 
-    std::span<const float> table_;
-    float threshold_;
-    std::vector<std::int64_t> before_;
+    std::span<const ControlPoint> points_;
+    double threshold_;
 };
 
 } // namespace voxtact::test::quad

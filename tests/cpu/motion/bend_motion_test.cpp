@@ -3,6 +3,7 @@
 #include "cpu/scenes/bent_meshes.h"
 #include "cpu/scenes/needle_fixture.h"
 #include "cpu/scenes/random_scene.h"
+#include "support/host_meters.h"
 
 #include <gmock/gmock.h>
 
@@ -35,7 +36,7 @@ struct BendingWay {
                 multiply(translation({uniform(random, -by, by), uniform(random, -by, by), uniform(random, -by, by)}),
                          scene.poses[0]);
         }
-        for (std::vector<float>& shape : shapes) {
+        for (std::vector<double>& shape : shapes) {
             shape = bent(random, scene.mesh, 0.5 * size);
         }
         views = {shapes[0], shapes[1]};
@@ -48,10 +49,10 @@ struct BendingWay {
     [[nodiscard]] cpu::BatchItem item() const { return {&mesh, &volume, &function, scene.poses}; }
     [[nodiscard]] SegmentMotion check(cpu::MotionChecker& checker) const {
         const cpu::BatchItem one = item();
-        const cpu::ShapesOfPoses of = views;
+        const ShapesOfPoses of = views;
         return take(checker.checkBending({{&one, 1}, {}, scene.threshold}, {&of, 1})).segments.at(0);
     }
-    /// The mesh at a parameter, made afresh.
+    /// The mesh at a parameter, newly made.
     [[nodiscard]] cpu::Mesh meshAt(double parameter) const {
         return take(cpu::Mesh::create({take(shapeBetween(shapes[0], shapes[1], parameter)), scene.mesh.indices}));
     }
@@ -63,8 +64,8 @@ struct BendingWay {
     cpu::Volume volume;
     cpu::TransferFunction function;
     cpu::Mesh mesh;
-    std::array<std::vector<float>, 2> shapes;
-    std::array<std::span<const float>, 2> views;
+    std::array<std::vector<double>, 2> shapes;
+    std::array<std::span<const double>, 2> views;
     Vec3 centre{};
 };
 
@@ -73,7 +74,7 @@ TEST(BendingMotion, NoSampleOfTheWayContradictsIt) {
     const std::uint64_t seed = testSeed();
     std::mt19937_64 random(seed);
     cpu::Detector detector =
-        take(cpu::Detector::create({.threads = 1, .stopAtFirst = true, .projection = Projection::Conservative}));
+        take(cpu::Detector::create({.threads = 1, .stopAtFirst = true, .projection = Projection::Certified}));
     cpu::ClearanceMeter meter = take(cpu::ClearanceMeter::create({.threads = 1, .tolerance = 0.01}));
     std::size_t free = 0;
     std::size_t touching = 0;
@@ -114,9 +115,9 @@ TEST(BendingMotion, NoSampleOfTheWayContradictsIt) {
             const cpu::Mesh mesh = way.meshAt(says.freeUntil);
             const Mat4 pose = way.poseAt(says.freeUntil, interpolation);
             const cpu::BatchItem item{&mesh, &way.volume, &way.function, {&pose, 1}};
-            const ClearanceAnswer near =
+            const DistanceAnswer near =
                 take(meter.measure({.items = {&item, 1}, .view = {}, .threshold = way.scene.threshold}));
-            EXPECT_LT(near.pairs.at(0).bounds.lo, 0.1 + 1e-6 * bendSize(way.scene.volume.grid));
+            EXPECT_LT(near.pairs.at(0).bounds.lower, 0.1 + 1e-6 * bendSize(way.scene.volume.grid));
         }
         ++(says.touch ? touching : says.possible ? possible : free);
     }
@@ -150,11 +151,11 @@ TEST(BendingMotion, WhatDoesNotBendIsAsCheckSays) {
 
 class BendingNeedle : public NeedleFixture {
   protected:
-    [[nodiscard]] SegmentMotion go(std::span<const float> from, std::span<const float> to, const Vec3& by = {}) {
+    [[nodiscard]] SegmentMotion go(std::span<const double> from, std::span<const double> to, const Vec3& by = {}) {
         const std::array poses{pose_, multiply(translation(by), pose_)};
         const cpu::BatchItem item{&mesh_, &volume_, &function_, poses};
         const std::array shapes{from, to};
-        const cpu::ShapesOfPoses of = shapes;
+        const ShapesOfPoses of = shapes;
         return take(checker_.checkBending({{&item, 1}, {}, 0.5}, {&of, 1})).segments.at(0);
     }
 
@@ -164,20 +165,19 @@ class BendingNeedle : public NeedleFixture {
 TEST_F(BendingNeedle, TouchesWhenItsTipGetsThere) {
     // The needle's point is at x = 3, and half of the way to the opaque part in voxels of 1 mm.
     cpu::ClearanceMeter meter = take(cpu::ClearanceMeter::create());
-    const std::vector<float> straight = deflected(0);
-    const std::vector<float> bentBy = deflected(10);
+    const std::vector<double> straight = deflected(0);
+    const std::vector<double> bentBy = deflected(10);
     const SegmentMotion says = go(straight, bentBy);
     ASSERT_TRUE(says.touch.has_value());
     EXPECT_EQ(says.end, MotionEnd::Decided);
     EXPECT_GT(says.freeUntil, 0.3);
     EXPECT_LE(10 * (says.touch->at - says.freeUntil), kDefaultMotionResolution * 1.01);
     // What is measured there: within the resolution of a touch.
-    const std::vector<float> shape = take(shapeBetween(straight, bentBy, says.freeUntil));
+    const std::vector<double> shape = take(shapeBetween(straight, bentBy, says.freeUntil));
     const cpu::Mesh there = take(cpu::Mesh::create({shape, data_.indices}));
     const cpu::BatchItem item{&there, &volume_, &function_, {&pose_, 1}};
-    const ClearanceBounds bounds =
-        take(meter.measure({.items = {&item, 1}, .view = {}, .threshold = 0.5})).pairs[0].bounds;
-    EXPECT_LE(bounds.lo, 2 * kDefaultMotionResolution);
+    const Bounds bounds = take(meter.measure({.items = {&item, 1}, .view = {}, .threshold = 0.5})).pairs[0].bounds;
+    EXPECT_LE(bounds.lower, 2 * kDefaultMotionResolution);
     EXPECT_EQ(says.touch->world_from_object, pose_);
     // Not so far, and the other way round: free.
     EXPECT_EQ(go(straight, deflected(2)).freeUntil, 1);
@@ -188,7 +188,7 @@ TEST_F(BendingNeedle, TouchesWhenItsTipGetsThere) {
 
 /// While it goes away as fast as it bends towards the opaque part, it never gets nearer.
 TEST_F(BendingNeedle, BendsAndMovesAtTheSameTime) {
-    const std::vector<float> straight = deflected(0);
+    const std::vector<double> straight = deflected(0);
     EXPECT_TRUE(go(straight, deflected(8)).touch.has_value());
     EXPECT_EQ(go(straight, deflected(8), {-8, 0, 0}).freeUntil, 1);
     const SegmentMotion faster = go(straight, deflected(8), {8, 0, 0});
@@ -204,10 +204,10 @@ TEST_F(BendingNeedle, ASheetIsNeverSteppedOver) {
     flat[12] = -200; // bent by 208 mm its tip is at 8, by 400 far behind
     const std::array poses{flat, flat};
     const cpu::BatchItem item{&mesh_, &volume, &function_, poses};
-    const std::vector<float> from = deflected(0);
-    const std::vector<float> to = deflected(400);
-    const std::array<std::span<const float>, 2> shapes{from, to};
-    const cpu::ShapesOfPoses of = shapes;
+    const std::vector<double> from = deflected(0);
+    const std::vector<double> to = deflected(400);
+    const std::array<std::span<const double>, 2> shapes{from, to};
+    const ShapesOfPoses of = shapes;
     const SegmentMotion says = take(checker_.checkBending({{&item, 1}, {}, 0.5}, {&of, 1})).segments.at(0);
     ASSERT_TRUE(says.touch.has_value());
     EXPECT_NEAR(says.touch->at, 0.52, 0.03);
@@ -218,17 +218,18 @@ TEST_F(BendingNeedle, WhatIsRefused) {
     const std::array poses{pose_, pose_};
     const cpu::BatchItem item{&mesh_, &volume_, &function_, poses};
     const cpu::Batch batch{{&item, 1}, {}, 0.5};
-    const std::vector<float> good = deflected(1);
-    std::vector<float> bad = good;
+    const std::vector<double> good = deflected(1);
+    std::vector<double> bad = good;
     bad[4] = std::numeric_limits<float>::infinity();
-    const std::array<std::span<const float>, 3> shapes{good, bad, std::span(good).first(3)};
-    const auto check = [&](std::span<const std::span<const float>> of) {
+    const std::array<std::span<const double>, 3> shapes{good, bad, std::span(good).first(3)};
+    const auto check = [&](std::span<const std::span<const double>> of) {
         return text(checker_.checkBending(batch, {&of, 1}));
     };
-    EXPECT_THAT(text(checker_.checkBending(batch, {})), HasSubstr("shapes for 0 items, the batch has 1"));
+    const std::array<ShapesOfPoses, 2> tooMany{shapes, shapes};
+    EXPECT_THAT(text(checker_.checkBending(batch, tooMany)), HasSubstr("shapes for 2 items, the batch has 1"));
     EXPECT_THAT(check(shapes), HasSubstr("batch item 0: there are 3 shapes for 2 poses"));
     EXPECT_THAT(check(std::span(shapes).first(2)), HasSubstr("the shape of pose 1: vertex 1 of the mesh has"));
-    const std::array<std::span<const float>, 2> small{shapes[2], shapes[0]};
+    const std::array<std::span<const double>, 2> small{shapes[2], shapes[0]};
     EXPECT_THAT(check(small), HasSubstr("the shape of pose 0: 3 coordinates, the mesh has"));
     EXPECT_THAT(text(shapeBetween(good, shapes[2], 0.5)), HasSubstr("coordinates"));
     EXPECT_THAT(text(shapeBetween(good, good, 1.5)), HasSubstr("the parameter 1.5 is outside"));

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Poses that may be off, of meshes whose triangles are as long as they are: near the object's origin little of them
 // moves, however far their far ends go.
-#include "cpu/motion/divided_mesh.h"
 #include "cpu/scenes/ball_and_box.h"
 #include "cpu/scenes/engine_fixture.h"
+#include "host/motion/divided_mesh.h"
+#include "support/host_meters.h"
 #include "voxtact/samples.h"
 
 #include <glm/geometric.hpp>
@@ -54,7 +55,7 @@ TEST(LargeTriangles, AreAsFarOffAsTheirPlaces) {
     const cpu::TransferFunction function = take(cpu::TransferFunction::create({kBallPoints, {0, 255}, 256}));
     cpu::MotionChecker checker = take(cpu::MotionChecker::create({.threads = 1}));
     cpu::Detector detector =
-        take(cpu::Detector::create({.threads = 1, .stopAtFirst = true, .projection = Projection::Conservative}));
+        take(cpu::Detector::create({.threads = 1, .stopAtFirst = true, .projection = Projection::Certified}));
     const std::vector<Mat4> poses = posesOfBoxTool(random, kHalf, kLength, 60, kPoses);
     const cpu::BatchItem item{&mesh, &volume, &function, poses};
     for (const PoseTolerance& tolerance : {PoseTolerance{1, 2}, PoseTolerance{0, 5}, PoseTolerance{5, 30}}) {

@@ -4,6 +4,7 @@
 #include "cpu/scenes/engine_fixture.h"
 #include "cpu/scenes/random_scene.h"
 #include "oracle/motion_oracle.h"
+#include "support/host_meters.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -84,7 +85,7 @@ struct Engines {
     cpu::MotionChecker screw = take(cpu::MotionChecker::create({.threads = 1}));
     cpu::MotionChecker slerp = take(cpu::MotionChecker::create({.threads = 1, .interpolation = Interpolation::Slerp}));
     cpu::Detector detector =
-        take(cpu::Detector::create({.threads = 1, .stopAtFirst = true, .projection = Projection::Conservative}));
+        take(cpu::Detector::create({.threads = 1, .stopAtFirst = true, .projection = Projection::Certified}));
 };
 
 struct Tally {

@@ -4,6 +4,7 @@
 #include "cpu/scenes/oracle_scenes.h"
 #include "cpu/scenes/random_scene.h"
 #include "support/floor.h"
+#include "support/host_meters.h"
 
 #include <gtest/gtest.h>
 
@@ -354,7 +355,7 @@ TEST(PoseTolerance, NoPoseThatIsOffTouches) {
                          multiply(turn, multiply(translation({-origin[0], -origin[1], -origin[2]}), scene.poses[0]))));
         }
         cpu::Detector detector =
-            take(cpu::Detector::create({.threads = 1, .stopAtFirst = true, .projection = Projection::Conservative}));
+            take(cpu::Detector::create({.threads = 1, .stopAtFirst = true, .projection = Projection::Certified}));
         const cpu::BatchItem all{&mesh, &volume, &function, poses};
         bool some = false;
         for (const PairAnswer& pair : take(detector.detect({std::span(&all, 1), {}, scene.threshold})).pairs) {
@@ -376,11 +377,16 @@ TEST(Motion, RefusesWhatItCannotUse) {
     EXPECT_EQ(refused({.resolution = 0}), "the resolution 0 mm is not a number from 1e-06 mm on");
     EXPECT_NE(refused({.resolution = std::nan("")}), "");
     EXPECT_NE(refused({.touchResolution = 2}), "");
-    EXPECT_EQ(refused({.mostSteps = 0}), "at most 0 steps are allowed, a motion takes at least one step");
+    EXPECT_EQ(refused({.mostSteps = 0}), "at most 0 steps are allowed, a search takes at least one step");
     EXPECT_NE(refused({.interpolation = static_cast<Interpolation>(7)}), "");
     EXPECT_EQ(refused({.threads = 2}), "");
 
     const Held held(makeCube(-1, 1), floorImage());
+    cpu::HostEngine engine = take(cpu::HostEngine::create(1));
+    const Touch both{.margin = 1, .uncertainty = PoseTolerance{1, 0}};
+    const Mat4 unmoved = identity();
+    const cpu::BatchItem one{&held.mesh, &held.volume, &held.function, {&unmoved, 1}};
+    EXPECT_NE(engine.ask(both, {.items = {&one, 1}}).error().text.find("leave out one of the two"), std::string::npos);
     cpu::MotionChecker checker = take(cpu::MotionChecker::create({.threads = 1}));
     const auto text = [&](const std::vector<Mat4>& poses) {
         const cpu::BatchItem item{&held.mesh, &held.volume, &held.function, poses};

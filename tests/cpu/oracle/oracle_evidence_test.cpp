@@ -188,7 +188,7 @@ MeshData makeAwkwardMesh(std::mt19937& random, std::uint32_t triangles) {
 /// A mesh far from its own origin, put back by the pose: single precision loses sub-pixels.
 void moveFarAway(OracleScene& scene) {
     constexpr float kFar = 3000;
-    for (float& coordinate : scene.mesh.positions) {
+    for (double& coordinate : scene.mesh.positions) {
         coordinate += kFar;
     }
     scene.world_from_object = translation({-kFar, -kFar, -kFar});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Entries where the image ends within the thing: a head is cut at the neck by the scan, and nobody enters there.
 #include "cpu/scenes/engine_fixture.h"
+#include "support/host_meters.h"
 #include "support/scenes.h"
 #include "voxtact/cpu.h"
 
@@ -48,7 +49,7 @@ class PlanBorder : public testing::Test {
     std::optional<cpu::Volume> volume_;
     std::optional<cpu::TransferFunction> function_;
     cpu::PlanObstacle obstacle_;
-    cpu::PlanTask task_;
+    cpu::Plan task_;
     cpu::Planner planner_ = take(cpu::Planner::create({.threads = 1}));
 };
 
@@ -108,9 +109,31 @@ TEST_F(PlanBorder, NoPathBeginsWhereTheImageEnds) {
                 std::find_if(other, all.paths.end(), [&](const PlannedPath& each) { return each.entry == path.entry; });
             ASSERT_NE(other, all.paths.end());
             EXPECT_EQ(path.position, other->position);
-            EXPECT_EQ(path.clearance.lo, other->clearance.lo);
+            EXPECT_EQ(path.clearance.lower, other->clearance.lower);
         }
     }
+}
+
+/// A pipe of air leads down out of the image, as a windpipe does: its walls are no skin.
+TEST_F(PlanBorder, NoPathBeginsInAirWithinTheBody) {
+    const auto isPipe = [this](auto x, auto y, auto z) {
+        return std::hypot(x + grid_.origin[0], y + grid_.origin[1]) < 4 && z + grid_.origin[2] < 2;
+    };
+    const VolumeData hollow = makeBytes(grid_, [&](auto x, auto y, auto z) {
+        return isPipe(x, y, z) ? 0.0 : static_cast<double>(std::to_integer<int>(ball_.voxels[(z * 40 + y) * 40 + x]));
+    });
+    const cpu::Volume volume = take(cpu::Volume::create(hollow.view()));
+    task_.target = {0, 0, 8};
+    task_.surface.volume = &volume;
+    const PlanAnswer answer = take(planner_.plan(task_));
+    EXPECT_EQ(answer.paths.size() + answer.onBorder, answer.directions);
+    for (const PlannedPath& path : answer.paths) {
+        EXPECT_NEAR(std::hypot(path.position[0], path.position[1], path.position[2]), kRadius, 0.2);
+    }
+    task_.surface.borderEntries = true;
+    const PlanAnswer all = take(planner_.plan(task_));
+    EXPECT_EQ(all.paths.size(), all.directions);
+    EXPECT_TRUE(std::ranges::any_of(all.paths, [](const PlannedPath& path) { return path.length < 7; }));
 }
 
 /// Each direction is counted once, as what leaves it out first.

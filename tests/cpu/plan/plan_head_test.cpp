@@ -2,6 +2,7 @@
 // Safe paths in a real head with an atlas, one by one, against the oracle of clearances.
 #include "core/geometry/glm_bridge.h"
 #include "oracle/clearance_oracle.h"
+#include "support/host_meters.h"
 #include "support/scenes.h"
 #include "voxtact/cpu.h"
 #include "voxtact/io.h"
@@ -103,7 +104,7 @@ TEST(PlanHead, TheOracleConfirmsSafePaths) {
     const cpu::TransferFunction skin = cpu::TransferFunction::create({opacity, {0, 255}}).value();
     // Left insula, hippocampus, caudate and putamen; the target is in the left thalamus.
     const cpu::PlanObstacle obstacle{&volume, nullptr, 0, &labels, {29, 37, 71, 73}};
-    cpu::PlanTask task;
+    cpu::Plan task;
     task.target = {12, 18, 8};
     task.surface = {.entries = 10000, .volume = &volume, .transferFunction = &skin};
     task.obstacles = std::span(&obstacle, 1);
@@ -147,10 +148,10 @@ TEST(PlanHead, TheOracleConfirmsSafePaths) {
             hi = std::min(hi, found.hi);
         }
         confirmed += lo + kFloats > kMargin ? 1 : 0;
-        farthest = std::max({farthest, path->clearance.lo - hi, lo - path->clearance.hi});
+        farthest = std::max({farthest, path->clearance.lower - hi, lo - path->clearance.upper});
         EXPECT_GT(hi + kFloats, kMargin) << "entry " << path->entry << " is not safe: " << lo << " to " << hi << " mm";
-        EXPECT_GE(hi + kFloats, path->clearance.lo) << "entry " << path->entry;
-        EXPECT_LE(lo - kFloats, path->clearance.hi) << "entry " << path->entry;
+        EXPECT_GE(hi + kFloats, path->clearance.lower) << "entry " << path->entry;
+        EXPECT_LE(lo - kFloats, path->clearance.upper) << "entry " << path->entry;
     }
     std::cout << "the oracle confirms " << confirmed << " of " << safe.size()
               << " safe paths; its bounds are apart from the planner's by " << std::max(farthest, 0.0)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Plans with several obstacles, loose bounds, and instruments that point anywhere.
 #include "cpu/scenes/box_scene.h"
+#include "support/host_meters.h"
 #include "voxtact/samples.h"
 
 #include <gtest/gtest.h>
@@ -35,7 +36,7 @@ TEST(PlanObstacles, BoundsHoldForAllOfThemHoweverLooseTheyAre) {
             const auto [lo, hi] = path.clearance;
             EXPECT_LE(lo, truth + 1e-6) << "margin " << scene.task.margin << ", " << obstacles.size() << " obstacles";
             EXPECT_GE(hi, truth - 1e-6);
-            EXPECT_EQ(path.end == ClearanceEnd::Beyond, std::isinf(hi));
+            EXPECT_EQ(path.end == StopReason::Beyond, std::isinf(hi));
             EXPECT_EQ(path.nearest.has_value(), std::isfinite(hi));
             EXPECT_TRUE(path.safety != Safety::Safe || truth > scene.task.margin);
             EXPECT_TRUE(path.safety != Safety::Unsafe || truth < scene.task.margin + 1e-6);
@@ -58,10 +59,10 @@ std::vector<PlannedPath> besideAWall(const Vec3& axis, const dvec3& along) {
     const cpu::Volume volume = take(cpu::Volume::create(nothing.view()));
     const cpu::PlanObstacle wall{&volume, nullptr, kDefaultThreshold, &labels, {1}};
     const dvec3 end = 80.0 * glm::normalize(along);
-    const std::vector<float> corners{0, 0, 0, static_cast<float>(end.x), 0, static_cast<float>(end.z), 0, 1e-4F, 0};
+    const std::vector<double> corners{0, 0, 0, static_cast<float>(end.x), 0, static_cast<float>(end.z), 0, 1e-4F, 0};
     const std::vector<std::uint32_t> indices{0, 1, 2};
     const cpu::Mesh sliver = take(cpu::Mesh::create({corners, indices}));
-    cpu::PlanTask task;
+    cpu::Plan task;
     task.obstacles = std::span(&wall, 1);
     task.surface = {.entries = 12, .radius = 30};
     task.mesh = cpu::PlanMesh{&sliver, {}, axis};
@@ -143,8 +144,8 @@ TEST(PlanObstacles, AMeshIsTurnedToTheOppositeWithoutALossOfDigits) {
         const std::vector<PlannedPath> paths = besideAWall({along.x, along.y, along.z}, along);
         // The first two directions are those of z: the sliver comes to lie beside the wall, 20 mm from it.
         for (std::size_t i = 0; i < 2; ++i) {
-            EXPECT_NEAR(paths[i].clearance.lo, 20, 1e-5) << "tilt " << tilt << ", path " << i;
-            EXPECT_NEAR(paths[i].clearance.hi, 20, 1e-5) << "tilt " << tilt << ", path " << i;
+            EXPECT_NEAR(paths[i].clearance.lower, 20, 1e-5) << "tilt " << tilt << ", path " << i;
+            EXPECT_NEAR(paths[i].clearance.upper, 20, 1e-5) << "tilt " << tilt << ", path " << i;
         }
     }
 }
@@ -155,8 +156,8 @@ TEST(PlanObstacles, TheLengthOfAnAxisDoesNotMatter) {
         const std::vector<PlannedPath> paths = besideAWall({length, 0, 0}, {1, 0, 0});
         ASSERT_EQ(paths.size(), usual.size());
         for (std::size_t i = 0; i < paths.size(); ++i) {
-            EXPECT_EQ(paths[i].clearance.lo, usual[i].clearance.lo) << length;
-            EXPECT_EQ(paths[i].clearance.hi, usual[i].clearance.hi) << length;
+            EXPECT_EQ(paths[i].clearance.lower, usual[i].clearance.lower) << length;
+            EXPECT_EQ(paths[i].clearance.upper, usual[i].clearance.upper) << length;
         }
     }
 }
@@ -196,7 +197,7 @@ TEST(PlanObstacles, AGridThatAFileHasRoundedIsTheSame) {
     scene.labels.grid.origin[2] += 1e-5;
     const PlanAnswer answer = take(planner.plan(scene.task));
     for (std::size_t i = 0; i < usual.paths.size(); ++i) {
-        EXPECT_EQ(answer.paths[i].clearance.hi, usual.paths[i].clearance.hi);
+        EXPECT_EQ(answer.paths[i].clearance.upper, usual.paths[i].clearance.upper);
     }
     for (const auto change :
          {+[](Grid& grid) { grid.origin[0] += 1e-3; }, +[](Grid& grid) { grid.spacing[2] *= 1.001; },

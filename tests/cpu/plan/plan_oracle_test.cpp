@@ -5,6 +5,7 @@
 #include "cpu/scenes/engine_fixture.h"
 #include "cpu/scenes/random_scene.h"
 #include "oracle/clearance_oracle.h"
+#include "support/host_meters.h"
 #include "support/scenes.h"
 
 #include <glm/vec3.hpp>
@@ -92,7 +93,7 @@ struct PlanCase {
     LabelData labels;
     bool opaque = false;
     cpu::PlanObstacle obstacle;
-    cpu::PlanTask task;
+    cpu::Plan task;
 };
 
 TEST(PlanOracle, ConfirmsPathsThatAreSafe) {
@@ -115,10 +116,10 @@ TEST(PlanOracle, ConfirmsPathsThatAreSafe) {
         for (const PlannedPath& path : answer.paths) {
             const oracle::OracleClearance truth = c.truth(path);
             ++verdicts[static_cast<std::size_t>(path.safety)];
-            EXPECT_LE(path.clearance.lo, truth.hi + slack)
-                << path.clearance.lo << " to " << path.clearance.hi << ", truth " << truth.lo << " to " << truth.hi;
-            EXPECT_GE(path.clearance.hi, truth.lo - slack)
-                << path.clearance.lo << " to " << path.clearance.hi << ", truth " << truth.lo << " to " << truth.hi;
+            EXPECT_LE(path.clearance.lower, truth.hi + slack) << path.clearance.lower << " to " << path.clearance.upper
+                                                              << ", truth " << truth.lo << " to " << truth.hi;
+            EXPECT_GE(path.clearance.upper, truth.lo - slack) << path.clearance.lower << " to " << path.clearance.upper
+                                                              << ", truth " << truth.lo << " to " << truth.hi;
             EXPECT_TRUE(path.safety != Safety::Safe || truth.hi + slack > c.task.margin);
         }
         ASSERT_FALSE(HasFailure());

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Plans against boxes, whose distance from a line is known.
-#include "cpu/plan/direction_grid.h"
 #include "cpu/scenes/box_scene.h"
+#include "host/plan/direction_grid.h"
+#include "support/host_meters.h"
 #include "support/scenes.h"
 #include "voxtact/cpu.h"
 #include "voxtact/samples.h"
@@ -111,9 +112,9 @@ TEST(Plan, SaysHowNearEachPathComes) {
             const auto [lo, hi] = path.clearance;
             EXPECT_LE(lo, truth + 1e-6);
             EXPECT_GE(hi, truth - 1e-6);
-            EXPECT_EQ(path.end, truth >= kDefaultPlanMaximum + 0.0101 ? ClearanceEnd::Beyond : path.end)
+            EXPECT_EQ(path.end, truth >= kDefaultPlanMaximum + 0.0101 ? StopReason::Beyond : path.end)
                 << truth << " in [" << lo << ", " << hi << "]";
-            EXPECT_TRUE(path.end == ClearanceEnd::Beyond ? lo == kDefaultPlanMaximum : hi - lo <= 0.0101);
+            EXPECT_TRUE(path.end == StopReason::Beyond ? lo == kDefaultPlanMaximum : hi - lo <= 0.0101);
             EXPECT_NEAR(path.length, 30, 1e-9);
             ++verdicts[static_cast<std::size_t>(path.safety)];
             if (std::abs(truth - scene.task.margin) > 1e-5 && truth > 1e-5) {
@@ -189,7 +190,7 @@ TEST(Plan, MeasuresTrianglesForAllTheirPaths) {
         scene.task.surface.entries = 642;
         scene.task.margin = uniform(random, 0, 3);
         const PlanAnswer without = take(planner.plan(scene.task));
-        scene.task.triangleClearances = true;
+        scene.task.triangleDistances = true;
         const PlanAnswer answer = take(planner.plan(scene.task));
         for (std::size_t i = 0; i < answer.triangles.size(); ++i) {
             const EntryTriangle& triangle = answer.triangles[i];
@@ -250,10 +251,11 @@ TEST(Plan, AMeshIsMeasuredOnItsWayIn) {
         for (std::size_t i = 0; i < answer.paths.size(); ++i) {
             const PlannedPath& path = answer.paths[i];
             const double truth = scene.clearance(toGlm(path.position));
-            EXPECT_GE(path.clearance.hi, truth - 1e-5);
-            EXPECT_LE(path.clearance.lo, truth + kInside);
-            EXPECT_TRUE(path.end == ClearanceEnd::Beyond || path.clearance.hi - path.clearance.lo <= 0.0101)
-                << toString(path.end) << ' ' << path.clearance.lo << ' ' << path.clearance.hi << ", truth " << truth;
+            EXPECT_GE(path.clearance.upper, truth - 1e-5);
+            EXPECT_LE(path.clearance.lower, truth + kInside);
+            EXPECT_TRUE(path.end == StopReason::Beyond || path.clearance.upper - path.clearance.lower <= 0.0101)
+                << toString(path.end) << ' ' << path.clearance.lower << ' ' << path.clearance.upper << ", truth "
+                << truth;
             EXPECT_TRUE(path.safety != Safety::Safe || truth + kInside > scene.task.margin);
             EXPECT_TRUE(path.safety != Safety::Unsafe || truth - 1e-5 < scene.task.margin);
         }
@@ -276,7 +278,7 @@ TEST(Plan, AvoidsWhatIsOpaqueAndEntersThroughASurface) {
     const std::vector<ControlPoint> steps{{0, 0}, {255, 1}};
     const cpu::TransferFunction function = take(cpu::TransferFunction::create({steps, {0, 255}}));
     const cpu::PlanObstacle avoided{&obstacle, &function, 150.0 / 255, nullptr, {}};
-    cpu::PlanTask task;
+    cpu::Plan task;
     task.obstacles = std::span(&avoided, 1);
     task.needle = {2, 20};
     task.surface = {.entries = 642, .volume = &head, .transferFunction = &function, .threshold = 100.0 / 255};
@@ -293,8 +295,8 @@ TEST(Plan, AvoidsWhatIsOpaqueAndEntersThroughASurface) {
         const dvec3 end = (path.length + 19) * direction;
         if (std::abs(end.y) < 20 && std::abs(end.z) < 20) {
             const double truth = std::clamp(10.5 - std::max(end.x, direction.x) - 1, 0.0, 1e9);
-            EXPECT_LE(path.clearance.lo, truth + 0.2);
-            EXPECT_GE(path.clearance.hi, truth - 0.2);
+            EXPECT_LE(path.clearance.lower, truth + 0.2);
+            EXPECT_GE(path.clearance.upper, truth - 0.2);
         }
         EXPECT_TRUE(!path.nearest || path.nearest->label == 0);
     }
@@ -362,13 +364,13 @@ TEST(Plan, DoesNotDependOnThreads) {
     BoxScene scene(random, 12);
     scene.task.surface.entries = 642;
     scene.task.margin = 1;
-    scene.task.triangleClearances = true;
+    scene.task.triangleDistances = true;
     const PlanAnswer one = take(take(cpu::Planner::create({.threads = 1})).plan(scene.task));
     const PlanAnswer three = take(take(cpu::Planner::create({.threads = 3})).plan(scene.task));
     ASSERT_EQ(one.paths.size(), three.paths.size());
     for (std::size_t i = 0; i < one.paths.size(); ++i) {
-        EXPECT_EQ(one.paths[i].clearance.lo, three.paths[i].clearance.lo);
-        EXPECT_EQ(one.paths[i].clearance.hi, three.paths[i].clearance.hi);
+        EXPECT_EQ(one.paths[i].clearance.lower, three.paths[i].clearance.lower);
+        EXPECT_EQ(one.paths[i].clearance.upper, three.paths[i].clearance.upper);
     }
     for (std::size_t i = 0; i < one.triangles.size(); ++i) {
         EXPECT_EQ(one.triangles[i].safe, three.triangles[i].safe);
@@ -404,20 +406,22 @@ TEST(Plan, TellsWhatALineCrosses) {
 }
 
 TEST(Plan, RefusesWhatItCannotUse) {
-    EXPECT_EQ(cpu::Planner::create({.tolerance = 0}).error().text,
-              "the tolerance 0 mm is not a number from 1e-06 mm on");
-    EXPECT_FALSE(cpu::Planner::create({.maximum = 0}).ok());
-    EXPECT_FALSE(cpu::Planner::create({.mostSteps = 0}).ok());
     std::mt19937_64 random(testSeed());
     const BoxScene scene(random, 5);
     cpu::Planner planner = take(cpu::Planner::create({.threads = 1}));
-    const auto refused = [&](const std::function<void(cpu::PlanTask&)>& change) {
-        cpu::PlanTask task = scene.task;
+    const auto refused = [&](const std::function<void(cpu::Plan&)>& change) {
+        cpu::Plan task = scene.task;
         change(task);
         const Result<PlanAnswer> answer = planner.plan(task);
         return answer.ok() ? std::string() : answer.error().text;
     };
     EXPECT_EQ(refused([](auto&) {}), "");
+    const auto numbers = [&](const cpu::PlannerDesc& desc) {
+        return take(cpu::Planner::create(desc)).plan(scene.task).error().text;
+    };
+    EXPECT_EQ(numbers({.threads = 1, .tolerance = 0}), "the tolerance 0 mm is not a number from 1e-06 mm on");
+    EXPECT_EQ(numbers({.threads = 1, .maximum = 0}), "the max 0 mm is not a number above 0 mm");
+    EXPECT_EQ(numbers({.threads = 1, .mostSteps = 0}), "at most 0 steps are allowed, a search takes at least one step");
     EXPECT_EQ(refused([](auto& task) { task.target[1] = std::nan(""); }),
               "the target is not within 1e+09 mm of the origin");
     EXPECT_NE(refused([](auto& task) { task.target[2] = 1e18; }).find("the target"), std::string::npos);

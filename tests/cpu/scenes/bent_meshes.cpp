@@ -8,19 +8,18 @@
 
 namespace voxtact::test {
 
-std::vector<float> bent(std::mt19937_64& random, const MeshData& mesh, double size) {
+std::vector<double> bent(std::mt19937_64& random, const MeshData& mesh, double size) {
     const double amount = uniform(random, 0, 0.6) * size;
     const double noise = chance(random, 0.3) ? 0.1 * size : 0;
     const double waves = uniform(random, 0.2, 3) / size;
     const bool flattened = chance(random, 0.1);
-    std::vector<float> out = mesh.positions;
+    std::vector<double> out = mesh.positions;
     for (std::size_t at = 0; at < out.size(); at += 3) {
-        const double x = static_cast<double>(mesh.positions[at]);
+        const double x = mesh.positions[at];
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const double moved = static_cast<double>(out[at + axis]) +
-                                 amount * std::sin(waves * x + static_cast<double>(axis)) +
+            const double moved = out[at + axis] + amount * std::sin(waves * x + static_cast<double>(axis)) +
                                  uniform(random, -noise, noise);
-            out[at + axis] = flattened && axis == 2 ? 0.25F : static_cast<float>(moved);
+            out[at + axis] = flattened && axis == 2 ? 0.25 : static_cast<double>(static_cast<float>(moved));
         }
     }
     return out;

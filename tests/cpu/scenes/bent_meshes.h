@@ -11,7 +11,7 @@
 namespace voxtact::test {
 
 /// The vertices of a mesh after a smooth bend with some noise; sometimes everything falls onto one plane.
-[[nodiscard]] std::vector<float> bent(std::mt19937_64& random, const MeshData& mesh, double size);
+[[nodiscard]] std::vector<double> bent(std::mt19937_64& random, const MeshData& mesh, double size);
 /// A size for it: a quarter of the diagonal.
 [[nodiscard]] double bendSize(const Grid& grid);
 

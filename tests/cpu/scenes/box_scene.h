@@ -4,6 +4,7 @@
 #include "core/geometry/glm_bridge.h"
 #include "cpu/scenes/engine_fixture.h"
 #include "cpu/scenes/random_scene.h"
+#include "support/host_meters.h"
 #include "support/scenes.h"
 #include "voxtact/cpu.h"
 
@@ -113,7 +114,7 @@ struct BoxScene {
     LabelData labels;
     std::optional<cpu::Volume> volume;
     cpu::PlanObstacle obstacle;
-    cpu::PlanTask task;
+    cpu::Plan task;
 };
 
 } // namespace voxtact::test

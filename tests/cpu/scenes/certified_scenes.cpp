@@ -13,6 +13,20 @@
 
 namespace voxtact::test {
 
+double opacityOfValue(const std::vector<ControlPoint>& points, double value) {
+    double opacity = value < points.front().value  ? points.front().opacity
+                     : value > points.back().value ? points.back().opacity
+                                                   : 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        opacity = points[i].value == value ? std::max(opacity, points[i].opacity) : opacity;
+        if (i > 0 && points[i - 1].value < value && value < points[i].value) {
+            const double share = (value - points[i - 1].value) / (points[i].value - points[i - 1].value);
+            opacity = points[i - 1].opacity + share * (points[i].opacity - points[i - 1].opacity); // exact where equal
+        }
+    }
+    return opacity;
+}
+
 namespace {
 
 using Random = std::mt19937_64;
@@ -42,22 +56,27 @@ double voxelOf(const VolumeData& volume, const std::size_t (&at)[3]) {
     return load(float{});
 }
 
-/// Index space.
+/// Index space. Between equal voxels it is their value: nothing rounds at a step of the opacity.
 double valueAt(const VolumeData& volume, const Vec3& place) {
-    double out = 0;
+    double values[8];
+    Vec3 weight{};
     for (std::size_t corner = 0; corner < 8; ++corner) {
-        double weight = 1;
         std::size_t at[3];
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const double last = volume.grid.size[axis] - 1.0;
             const double u = std::clamp(place[axis], 0.0, last);
             const bool upper = (corner >> axis & 1) != 0;
             at[axis] = static_cast<std::size_t>(std::min(std::floor(u) + (upper ? 1 : 0), last));
-            weight *= upper ? u - std::floor(u) : 1 - (u - std::floor(u));
+            weight[axis] = u - std::floor(u);
         }
-        out += weight * voxelOf(volume, at);
+        values[corner] = voxelOf(volume, at);
     }
-    return out;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (std::size_t i = 0; i < std::size_t{4} >> axis; ++i) {
+            values[i] = std::lerp(values[2 * i], values[2 * i + 1], weight[axis]);
+        }
+    }
+    return values[0];
 }
 
 double opacityOfIndex(const CertifiedCase& c, const Vec3& place) {
@@ -66,18 +85,11 @@ double opacityOfIndex(const CertifiedCase& c, const Vec3& place) {
             return -1;
         }
     }
-    const ValueRange& domain = c.scene.domain;
-    const double last = static_cast<double>(c.table.size()) - 1;
-    const double scalar = (valueAt(c.scene.volume, place) - domain.lo) / (domain.hi - domain.lo);
-    const double x = std::clamp(scalar * static_cast<double>(c.table.size()) - 0.5, 0.0, last);
-    const auto below = static_cast<std::size_t>(std::min(std::floor(x), last - 1));
-    const auto a = static_cast<double>(c.table[below]);
-    const auto b = static_cast<double>(c.table[below + 1]);
-    return a + (x - static_cast<double>(below)) * (b - a); // exact where they are the same
+    return opacityOfValue(c.scene.points, valueAt(c.scene.volume, place));
 }
 
 bool opaque(const CertifiedCase& c, const Vec3& place) {
-    return opacityOfIndex(c, place) >= static_cast<double>(static_cast<float>(c.scene.threshold));
+    return opacityOfIndex(c, place) >= c.scene.threshold;
 }
 
 /// `plain`: what a mesh in a plane of the grid keeps through the transform.

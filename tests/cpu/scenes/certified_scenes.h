@@ -38,6 +38,8 @@ struct CertifiedCase {
 /// where they may be `near`, do not. The same case for the same numbers, but for the outlier.
 [[nodiscard]] CertifiedCase outlierCase(std::uint64_t seed, double outlier, bool near);
 
+/// By the control points; the greatest at a step.
+[[nodiscard]] double opacityOfValue(const std::vector<ControlPoint>& points, double value);
 /// At a place in texture space, in a few lines of double precision that share nothing with the certified oracle. Minus
 /// one outside the domain.
 [[nodiscard]] double opacityOf(const CertifiedCase& c, const Vec3& texture);

@@ -53,10 +53,10 @@ CertifiedCase scaledTriangle(double scale) {
 }
 
 std::vector<DenormalScene> denormalScenes() {
-    return {{"voxels", tinyVoxels()},
-            {"vertices", scaledTriangle(0x1p127)},
-            {"scale", hugeDomain()},
-            {"threshold", tinyThreshold()}};
+    return {{"voxels", tinyVoxels(), false},
+            {"vertices", scaledTriangle(0x1p127), false},
+            {"scale", hugeDomain(), true},
+            {"threshold", tinyThreshold(), true}};
 }
 
 } // namespace voxtact::test

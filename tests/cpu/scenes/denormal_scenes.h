@@ -10,6 +10,7 @@ namespace voxtact::test {
 struct DenormalScene {
     const char* name;
     CertifiedCase scene;
+    bool decided; ///< the opaque values are computed in double: what only they depend on is known
 };
 
 /// Pairs that touch for certain, but only where floats below 1.2e-38 are not taken for zero: their voxels, vertices,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "support/host_meters.h"
 #include "support/scenes.h"
 #include "support/take.h"
 #include "voxtact/cpu.h"

@@ -2,6 +2,7 @@
 #include "cpu/scenes/look_scene.h"
 
 #include "core/method/certified_constants.h"
+#include "core/transfer/table_points.h"
 #include "cpu/scenes/random_scene.h"
 #include "support/scenes.h"
 
@@ -29,15 +30,8 @@ std::vector<float> drawnTable(std::mt19937_64& random) {
 } // namespace
 
 LookScene::LookScene(std::mt19937_64& random)
-    : entries_(drawnTable(random)), extremes_(entries_),
-      item_(certifiedItem(unitGrid(kSide), 1, 0, {0, 255}, entries_.size(), uniform(random, 0.02, 0.98), 1e-3)) {}
-
-cpu::OpacityLook LookScene::look() const {
-    shader::OpacityTable known = table();
-    const cpu::OpaqueHull hull = cpu::opaqueHullOf(known);
-    known.bounds = hull.bounds;
-    return {known, hull.whole};
-}
+    : numbers_(opaqueNumbers(pointsOf(drawnTable(random), {0, 255}), uniform(random, 0.02, 0.98), {}, false)),
+      item_(certifiedItem(unitGrid(kSide), numbers_, 1e-3)) {}
 
 shader::CertifiedCorners LookScene::corners(std::mt19937_64& random) const {
     std::array<float, 8> values{};
@@ -66,13 +60,13 @@ int LookScene::verdict(const shader::CertifiedCorners& corners, const std::array
         shader::certifiedTriangle(vertices[0].point, vertices[1].point, vertices[2].point, bounds.delta);
     const auto [x, y, z] = place;
     const shader::CertifiedCell cell = shader::certifiedCell(item_, corners, x, y, z, bounds.delta);
-    if (!shader::certifiedCellMayBeOpaque(table(), cell)) {
+    if (!shader::certifiedCellMayBeOpaque(opaque(), cell)) {
         return CERTIFIED_NONE;
     }
     shader::VoxelPoint polygon[CERTIFIED_MAX_CORNERS];
-    const int count = shader::certifiedBegin(table(), triangle, cell, x, y, z, polygon);
+    const int count = shader::certifiedBegin(opaque(), triangle, cell, x, y, z, polygon);
     shader::CertifiedWitness witness{};
-    return shader::certifiedSettle(table(), item_.resolution, cell, polygon, count, witness);
+    return shader::certifiedSettle(opaque(), item_.resolution, cell, polygon, count, witness);
 }
 
 } // namespace voxtact::test

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "certified.h"
-#include "core/transfer/table_extremes.h"
-#include "cpu/certified/opaque_hull.h"
+#include "core/transfer/opaque_numbers.h"
+#include "exact/certified.h"
 
 #include <array>
 #include <cstdint>
@@ -12,7 +11,7 @@
 
 namespace voxtact::test {
 
-/// A table, drawn, for cells of 40 voxels along each side whose values are drawn around it.
+/// A transfer function, drawn, for cells of 40 voxels along each side whose values are drawn around it.
 class LookScene {
   public:
     static constexpr int kSide = 40;
@@ -20,10 +19,7 @@ class LookScene {
     explicit LookScene(std::mt19937_64& random);
 
     [[nodiscard]] const shader::CertifiedItem& item() const { return item_; }
-    [[nodiscard]] shader::OpacityTable table() const {
-        return {item_.tableSize, item_.tableLevels, item_.threshold, extremes_.values().data()};
-    }
-    [[nodiscard]] cpu::OpacityLook look() const;
+    [[nodiscard]] shader::OpaqueValues opaque() const { return numbers_.values(); }
     [[nodiscard]] shader::CertifiedCorners corners(std::mt19937_64& random) const;
     /// What certifiedSettle() finds of a triangle in a cell; none where no point of the cell may be opaque.
     [[nodiscard]] int verdict(const shader::CertifiedCorners& corners,
@@ -31,8 +27,7 @@ class LookScene {
                               const std::array<std::int32_t, 3>& place) const;
 
   private:
-    std::vector<float> entries_;
-    TableExtremes extremes_;
+    OpaqueNumbers numbers_;
     shader::CertifiedItem item_;
 };
 

@@ -17,11 +17,11 @@ class NeedleFixture : public testing::Test {
     }
     [[nodiscard]] cpu::BatchItem item() const { return {&mesh_, &volume_, &function_, {&pose_, 1}}; }
     /// Its tip, at z = 0, comes so far towards larger x, in a parabola.
-    [[nodiscard]] std::vector<float> deflected(double by) const {
-        std::vector<float> out = data_.positions;
+    [[nodiscard]] std::vector<double> deflected(double by) const {
+        std::vector<double> out = data_.positions;
         for (std::size_t at = 0; at < out.size(); at += 3) {
-            const double fromBase = 1 - static_cast<double>(out[at + 2]) / 10;
-            out[at] += static_cast<float>(by * fromBase * fromBase);
+            const double fromBase = 1 - out[at + 2] / 10;
+            out[at] += by * fromBase * fromBase;
         }
         return out;
     }

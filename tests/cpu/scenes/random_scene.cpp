@@ -140,7 +140,7 @@ MeshData soup(std::mt19937_64& random, double size, std::size_t triangles) {
 }
 
 MeshData scaled(MeshData mesh, double scale) {
-    for (float& coordinate : mesh.positions) {
+    for (double& coordinate : mesh.positions) {
         coordinate = static_cast<float>(static_cast<double>(coordinate) * scale);
     }
     return mesh;
@@ -249,6 +249,12 @@ RandomScene makeRandomScene(std::mt19937_64& random, std::size_t poses) {
     return scene;
 }
 
+RandomScene makeRandomSceneForC(std::mt19937_64& random, std::size_t poses) {
+    RandomScene scene = makeRandomScene(random, poses);
+    scene.threshold = scene.threshold > 0 ? scene.threshold : kDefaultThreshold;
+    return scene;
+}
+
 RandomScene makeFarCornerScene(std::mt19937_64& random, std::size_t poses) {
     RandomScene scene = makeRandomScene(random, poses);
     scene.volume = makeBytes(scene.volume.grid, [](auto...) { return 255.0; }); // what is inside survives
@@ -263,7 +269,8 @@ RandomScene makeFarCornerScene(std::mt19937_64& random, std::size_t poses) {
     for (int i = 0; i < 9; ++i) {
         scene.mesh.positions.push_back(drawn(random, -1.5 * reach, 1.5 * reach));
     }
-    scene.mesh.positions[below(random, 9)] *= static_cast<float>(std::pow(10, uniform(random, 0, 24)));
+    double& one = scene.mesh.positions[below(random, 9)];
+    one = static_cast<float>(one * std::pow(10, uniform(random, 0, 24)));
     return scene;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "cpu/raster/reference.h"
+#include "host/count/reference.h"
 #include "voxtact/cpu.h"
 
 #include <random>
@@ -25,6 +25,8 @@ struct RandomScene {
 };
 
 [[nodiscard]] RandomScene makeRandomScene(std::mt19937_64& random, std::size_t poses);
+/// The same with a threshold above 0: a threshold of 0 is the default in C.
+[[nodiscard]] RandomScene makeRandomSceneForC(std::mt19937_64& random, std::size_t poses);
 
 /// A scene whose mesh is one triangle in and about the volume, with a corner that is finite, and far away.
 [[nodiscard]] RandomScene makeFarCornerScene(std::mt19937_64& random, std::size_t poses);

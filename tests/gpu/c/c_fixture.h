@@ -15,7 +15,7 @@ namespace voxtact::test {
 inline constexpr std::uint32_t kMany = 1U << 19U;
 
 inline vxt_context_desc cDesc(const ContextDesc& desc) {
-    vxt_context_desc out = vxt_context_desc_init();
+    vxt_context_desc out = sized<vxt_context_desc>();
     out.get_instance_proc_addr = desc.getInstanceProcAddr;
     out.instance = desc.instance;
     out.physical_device = desc.physicalDevice;
@@ -39,57 +39,28 @@ struct CScene {
     Owned<vxt_label_map> labelMap;
 
     CScene(const vxt_context* context, const vxt_queue& queue, const RandomScene& scene, const VolumeData& labelImage)
-        : volume(made<vxt_volume>(vxt_volume_destroy,
-                                  [&](auto out) {
-                                      vxt_volume_options options = vxt_volume_options_init();
-                                      options.bricks = 1;
-                                      options.editable = 1;
-                                      const vxt_volume_view view = cVolume(scene.volume);
-                                      return vxt_volume_upload(context, &queue, &view, &options, out);
-                                  })),
-          function(made<vxt_transfer_function>(vxt_transfer_function_destroy,
-                                               [&](auto out) {
-                                                   const auto points = cPoints(scene.points);
-                                                   const auto desc = cFunction(points, scene.domain, scene.tableSize);
-                                                   return vxt_transfer_function_upload(context, &queue, &desc, "table",
-                                                                                       out);
-                                               })),
-          mesh(made<vxt_mesh>(vxt_mesh_destroy,
-                              [&](auto out) {
-                                  vxt_mesh_options options = vxt_mesh_options_init();
-                                  options.clusters = 1;
-                                  const vxt_mesh_view view = cMesh(scene.mesh);
-                                  return vxt_mesh_upload(context, &queue, &view, &options, out);
-                              })),
-          labels(made<vxt_labels>(vxt_labels_destroy,
-                                  [&](auto out) {
-                                      const vxt_volume_view view = cVolume(labelImage);
-                                      return vxt_labels_create(&view, out);
-                                  })),
-          labelMap(made<vxt_label_map>(vxt_label_map_destroy, [&](auto out) {
-              return vxt_label_map_upload(context, &queue, labels.get(), nullptr, out);
-          })) {}
+        : volume(made(vxt_volume_destroy, vxt_volume_upload, context, &queue, at(cVolume(scene.volume)),
+                      at(vxt_volume_options{sizeof(vxt_volume_options), nullptr, 1, 1}))), // bricks, editable
+          function(made(vxt_transfer_function_destroy, vxt_transfer_function_upload, context, &queue,
+                        at(cFunction(cPoints(scene.points), scene.domain, scene.tableSize)), "table")),
+          mesh(made(vxt_mesh_destroy, vxt_mesh_upload, context, &queue, at(cMesh(scene.mesh)),
+                    at(vxt_mesh_options{sizeof(vxt_mesh_options), nullptr, 1, 0, 0}))), // clusters
+          labels(made(vxt_labels_destroy, vxt_labels_create, at(cVolume(labelImage)))),
+          labelMap(made(vxt_label_map_destroy, vxt_label_map_upload, context, &queue, labels.get(), nullptr)) {}
 };
 
 /// A batch of one item, with all that it looks at. Stays where it is.
 struct COneItem {
-    vxt_item item = vxt_item_init();
-    vxt_view view{};
-    vxt_batch batch = vxt_batch_init();
+    vxt_item item;
+    vxt_view view;
+    vxt_batch batch;
 
-    COneItem(const CScene& scene, const RandomScene& of) {
-        item.mesh = scene.mesh.get();
-        item.volume = scene.volume.get();
-        item.transfer_function = scene.function.get();
-        item.world_from_object = of.poses.data()->data();
-        item.pose_count = of.poses.size();
-        item.labels = scene.labelMap.get();
-        view = cView(of.view);
-        batch.items = &item;
-        batch.item_count = 1;
-        batch.view = &view;
-        batch.threshold = of.threshold;
-    }
+    COneItem(const vxt_mesh* mesh, const vxt_volume* volume, const vxt_transfer_function* function,
+             const vxt_label_map* labels, const RandomScene& of)
+        : item{sizeof item, mesh, volume, function, of.poses.data()->data(), of.poses.size(), labels, nullptr},
+          view(cView(of.view)), batch{sizeof batch, &item, 1, &view, of.threshold} {}
+    COneItem(const CScene& scene, const RandomScene& of)
+        : COneItem(scene.mesh.get(), scene.volume.get(), scene.function.get(), scene.labelMap.get(), of) {}
     COneItem(const COneItem&) = delete;
     COneItem& operator=(const COneItem&) = delete;
 };
@@ -101,12 +72,8 @@ class CGpuTest : public GpuTest {
         if (IsSkipped() || HasFatalFailure()) {
             return;
         }
-        queue_ = vxt_queue_init();
-        queue_.queue = queue().queue;
-        queue_.family = queue().family;
-        queue_.lock = queue().lock;
-        queue_.unlock = queue().unlock;
-        queue_.user = queue().user;
+        const QueueAccess& of = queue();
+        queue_ = {sizeof queue_, of.queue, of.lock, of.unlock, of.user, of.family};
         // One for all tests of a run: so they share its pipelines, which take most of the time on lavapipe.
         static const std::shared_ptr<vxt_context> shared = newContext();
         context_ = shared;
@@ -114,20 +81,16 @@ class CGpuTest : public GpuTest {
     [[nodiscard]] Owned<vxt_context> newContext() const {
         const ContextDesc cpp = gpu().device.contextDesc();
         const vxt_context_desc desc = cDesc(cpp);
-        return made<vxt_context>(vxt_context_destroy, [&](auto out) { return vxt_context_create(&desc, out); });
+        return made(vxt_context_destroy, vxt_context_create, &desc);
     }
     [[nodiscard]] Owned<vxt_detector> newDetector(const vxt_detector_desc& desc) const {
-        return made<vxt_detector>(vxt_detector_destroy,
-                                  [&](auto out) { return vxt_detector_create(context_.get(), &desc, out); });
+        return made(vxt_detector_destroy, vxt_detector_create, context_.get(), &desc);
     }
     [[nodiscard]] Owned<vxt_results> newResults(const vxt_results_desc& desc) const {
-        return made<vxt_results>(vxt_results_destroy,
-                                 [&](auto out) { return vxt_results_create(context_.get(), &desc, out); });
+        return made(vxt_results_destroy, vxt_results_create, context_.get(), &desc);
     }
     [[nodiscard]] Owned<vxt_blocking_detector> newBlocking(const vxt_detector_desc& desc) const {
-        return made<vxt_blocking_detector>(vxt_blocking_detector_destroy, [&](auto out) {
-            return vxt_blocking_detector_create(context_.get(), &desc, &queue_, kMany, out);
-        });
+        return made(vxt_blocking_detector_destroy, vxt_blocking_detector_create, context_.get(), &desc, &queue_, kMany);
     }
     [[nodiscard]] static BatchAnswer ask(vxt_blocking_detector& detector, const COneItem& of) {
         const Owned<vxt_answer> answer = newAnswer();
@@ -151,7 +114,7 @@ class CGpuTest : public GpuTest {
         return makeBytes(unitGrid(6), [](std::uint32_t x, auto, auto) { return x < 3 ? 0.0 : 3.0; });
     }
 
-    vxt_queue queue_ = vxt_queue_init();
+    vxt_queue queue_ = sized<vxt_queue>();
     std::shared_ptr<vxt_context> context_;
 };
 

@@ -33,9 +33,7 @@ class CPictures : public CGpuTest {
         scene_ = halfOpaque();
         sides_.emplace(context_.get(), queue_, scene_, twoLabels());
         const Result<Mat4> look = lookFrom();
-        blocking_ = made<vxt_blocking_renderer>(vxt_blocking_renderer_destroy, [&](auto out) {
-            return vxt_blocking_renderer_create(context_.get(), &queue_, out);
-        });
+        blocking_ = made(vxt_blocking_renderer_destroy, vxt_blocking_renderer_create, context_.get(), &queue_);
         makeC(*look);
         makeCpp(*look);
     }
@@ -57,26 +55,19 @@ class CPictures : public CGpuTest {
         desc.point_count = points.size();
         desc.colours = kCColours;
         desc.colour_count = std::size(kCColours);
+        desc.domain = {scene_.domain.lo, scene_.domain.hi};
         desc.opacity_unit = 0.4;
         desc.step = 0.05;
-        function_ = made<vxt_render_function>(vxt_render_function_destroy, [&](auto out) {
-            return vxt_render_function_upload(renderer(), &queue_, &desc, out);
-        });
-        bricks_ = made<vxt_render_bricks>(vxt_render_bricks_destroy, [&](auto out) {
-            return vxt_render_bricks_create(renderer(), sides_->volume.get(), out);
-        });
+        function_ = made(vxt_render_function_destroy, vxt_render_function_upload, renderer(), &queue_, &desc);
+        bricks_ = made(vxt_render_bricks_destroy, vxt_render_bricks_create, renderer(), sides_->volume.get());
         const vxt_mesh_view view = cMesh(scene_.mesh);
-        normals_ = made<vxt_mesh_normals>(vxt_mesh_normals_destroy, [&](auto out) {
-            return vxt_mesh_normals_upload(renderer(), &queue_, &view, out);
-        });
+        normals_ = made(vxt_mesh_normals_destroy, vxt_mesh_normals_upload, renderer(), &queue_, &view);
         const std::uint32_t chosen = 1;
-        painted_ = made<vxt_painted_triangles>(vxt_painted_triangles_destroy, [&](auto out) {
-            return vxt_painted_triangles_upload(renderer(), &queue_, 2, &chosen, 1, out);
-        });
+        painted_ =
+            made(vxt_painted_triangles_destroy, vxt_painted_triangles_upload, renderer(), &queue_, 2, &chosen, 1);
         const std::vector<Colour> colours = vertexColours();
-        vertices_ = made<vxt_painted_vertices>(vxt_painted_vertices_destroy, [&](auto out) {
-            return vxt_painted_vertices_upload(renderer(), &queue_, colours.front().data(), colours.size(), out);
-        });
+        vertices_ = made(vxt_painted_vertices_destroy, vxt_painted_vertices_upload, renderer(), &queue_,
+                         colours.front().data(), colours.size());
         mesh_.mesh = sides_->mesh.get();
         mesh_.normals = normals_.get();
         mesh_.transfer_function = sides_->function.get();
@@ -197,8 +188,7 @@ class CPictures : public CGpuTest {
     vxt_clip_plane plane_{{1, 1, 0}, 1.4};
     vxt_lighting lighting_ = vxt_lighting_init();
     vxt_picture_scene c_ = vxt_picture_scene_init();
-    Owned<vxt_picture> picture_ =
-        made<vxt_picture>(vxt_picture_destroy, [](auto out) { return vxt_picture_create(out); });
+    Owned<vxt_picture> picture_ = made(vxt_picture_destroy, vxt_picture_create);
     std::unique_ptr<CppParts> cppParts_;
     Scene cpp_;
 };
@@ -276,7 +266,7 @@ TEST_F(CPictures, TellHowFarTheyAre) {
 
 TEST_F(CPictures, EndWhereTheyAreTold) {
     const std::vector<std::uint8_t> expected = byC();
-    const auto cancel = made<vxt_cancel>(vxt_cancel_destroy, [](auto out) { return vxt_cancel_create(out); });
+    const auto cancel = made(vxt_cancel_destroy, vxt_cancel_create);
     c_.cancel = cancel.get();
     EXPECT_EQ(byC(), expected); // it is not set
     struct Heard {
@@ -310,9 +300,8 @@ TEST_F(CPictures, VerticesAreRecordedOrWrapped) {
     mesh_.paint = VXT_PAINT_VERTICES;
     mesh_.vertices = vertices_.get();
     const std::vector<std::uint8_t> expected = byC();
-    const auto recorded = made<vxt_painted_vertices>(vxt_painted_vertices_destroy, [&](auto out) {
-        return vxt_painted_vertices_create(renderer(), colours.front().data(), colours.size(), out);
-    });
+    const auto recorded = made(vxt_painted_vertices_destroy, vxt_painted_vertices_create, renderer(),
+                               colours.front().data(), colours.size());
     RawVulkan raw(gpu().device);
     const VkCommandBuffer commands = raw.begin();
     need(vxt_painted_vertices_cmd_upload(recorded.get(), commands));
@@ -329,8 +318,7 @@ TEST_F(CPictures, VerticesAreRecordedOrWrapped) {
     const RawVulkan::HostBuffer buffer =
         raw.makeBuffer(std::span<const std::uint32_t>(words), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     const vxt_buffer_range range{buffer.buffer, 0, 4 * words.size()};
-    const auto wrapped = made<vxt_painted_vertices>(
-        vxt_painted_vertices_destroy, [&](auto out) { return vxt_painted_vertices_wrap(renderer(), &range, out); });
+    const auto wrapped = made(vxt_painted_vertices_destroy, vxt_painted_vertices_wrap, renderer(), &range);
     mesh_.vertices = wrapped.get();
     EXPECT_EQ(byC(), expected);
     mesh_.vertices = nullptr;
@@ -339,32 +327,25 @@ TEST_F(CPictures, VerticesAreRecordedOrWrapped) {
 
 TEST_F(CPictures, AreRecordedIntoTheCallersCommands) {
     // All that was made in one go above, by a renderer of the caller's and recorded uploads.
-    const auto own = made<vxt_renderer>(vxt_renderer_destroy, [&](auto out) {
-        return vxt_renderer_create(context_.get(), VK_FORMAT_R8G8B8A8_UNORM, out);
-    });
-    const auto targets = made<vxt_render_targets>(vxt_render_targets_destroy, [&](auto out) {
-        return vxt_render_targets_create(own.get(), kWidth, kHeight, out);
-    });
+    const auto own = made(vxt_renderer_destroy, vxt_renderer_create, context_.get(), VK_FORMAT_R8G8B8A8_UNORM);
+    const auto targets = made(vxt_render_targets_destroy, vxt_render_targets_create, own.get(), kWidth, kHeight);
     const std::vector<vxt_control_point> points = cPoints(scene_.points);
     vxt_render_function_desc desc = vxt_render_function_desc_init();
+    desc.domain = {scene_.domain.lo, scene_.domain.hi};
     desc.points = points.data();
     desc.point_count = points.size();
     desc.opacity_unit = 0.4;
     desc.step = 0.05;
-    const auto function = made<vxt_render_function>(
-        vxt_render_function_destroy, [&](auto out) { return vxt_render_function_create(own.get(), &desc, out); });
+    const auto function = made(vxt_render_function_destroy, vxt_render_function_create, own.get(), &desc);
     EXPECT_EQ(vxt_render_function_visible(function.get()), 1U);
     const vxt_mesh_view view = cMesh(scene_.mesh);
     // Those of another shape, which are updated.
     MeshData bent = scene_.mesh;
     bent.positions[2] += 0.4F;
     const vxt_mesh_view bentView = cMesh(bent);
-    const auto normals = made<vxt_mesh_normals>(
-        vxt_mesh_normals_destroy, [&](auto out) { return vxt_mesh_normals_create(own.get(), &bentView, out); });
+    const auto normals = made(vxt_mesh_normals_destroy, vxt_mesh_normals_create, own.get(), &bentView);
     const std::uint32_t chosen = 1;
-    const auto painted = made<vxt_painted_triangles>(vxt_painted_triangles_destroy, [&](auto out) {
-        return vxt_painted_triangles_create(own.get(), 2, &chosen, 1, out);
-    });
+    const auto painted = made(vxt_painted_triangles_destroy, vxt_painted_triangles_create, own.get(), 2, &chosen, 1);
     OwnImage image(gpu().device, {kWidth, kHeight});
     const VkCommandBuffer commands = image.raw.begin();
     need(vxt_render_function_cmd_upload(function.get(), commands));
@@ -451,10 +432,10 @@ TEST_F(CPictures, RefuseWhatTheCppInterfaceRefuses) {
 
 TEST_F(CPictures, WrapATriangleMaskOfADetector) {
     // The same mask as painted_ has, but where a detector left it: both triangles are touched.
-    vxt_detector_desc desc = vxt_detector_desc_init();
+    vxt_detector_desc desc = sized<vxt_detector_desc>();
     desc.method = VXT_METHOD_ATOMIC;
     desc.outputs = VXT_OUTPUT_TRIANGLES;
-    vxt_results_desc resultsDesc = vxt_results_desc_init();
+    vxt_results_desc resultsDesc = sized<vxt_results_desc>();
     resultsDesc.outputs = VXT_OUTPUT_TRIANGLES;
     resultsDesc.triangle_room = 2;
     const Owned<vxt_results> results = newResults(resultsDesc);
@@ -466,12 +447,9 @@ TEST_F(CPictures, WrapATriangleMaskOfADetector) {
     raw.submitAndWait(commands);
     vxt_buffer_range mask{};
     need(vxt_results_on_device(results.get(), VXT_DEVICE_TRIANGLE_MASK, &mask));
-    const auto wrapped = made<vxt_painted_triangles>(
-        vxt_painted_triangles_destroy, [&](auto out) { return vxt_painted_triangles_wrap(renderer(), &mask, out); });
+    const auto wrapped = made(vxt_painted_triangles_destroy, vxt_painted_triangles_wrap, renderer(), &mask);
     const std::uint32_t all[] = {0, 1};
-    const auto both = made<vxt_painted_triangles>(vxt_painted_triangles_destroy, [&](auto out) {
-        return vxt_painted_triangles_upload(renderer(), &queue_, 2, all, 2, out);
-    });
+    const auto both = made(vxt_painted_triangles_destroy, vxt_painted_triangles_upload, renderer(), &queue_, 2, all, 2);
     mesh_.paint = VXT_PAINT_TRIANGLES;
     mesh_.triangles = both.get();
     const std::vector<std::uint8_t> expected = byC();

@@ -35,8 +35,8 @@ TEST_F(CGpuTest, KnowsOfTheDeviceWhatTheCppInterfaceKnows) {
 
     const ContextDesc cpp = gpu().device.contextDesc();
     const vxt_context_desc desc = cDesc(cpp);
-    const auto report = made<vxt_report>(vxt_report_destroy, [&](auto out) { return vxt_check(&desc, out); });
-    vxt_report_view view = vxt_report_view_init();
+    const auto report = made(vxt_report_destroy, vxt_check, &desc);
+    vxt_report_view view = sized<vxt_report_view>();
     need(vxt_report_get(report.get(), &view));
     const CheckReport expected = check(cpp);
     EXPECT_EQ(view.usable, 1U);
@@ -53,9 +53,9 @@ TEST_F(CGpuTest, KnowsOfTheDeviceWhatTheCppInterfaceKnows) {
 
 /// A random scene in which something touches, and not too much.
 RandomScene sceneWithSomeSurvivors(std::mt19937_64& random, Projection projection) {
-    cpu::Detector host = take(cpu::Detector::create({.boundary = Boundary::Range, .projection = projection}));
+    cpu::HostEngine host = take(cpu::HostEngine::create());
     for (int tries = 0; tries < 500; ++tries) {
-        RandomScene scene = makeRandomScene(random, 4);
+        RandomScene scene = makeRandomSceneForC(random, 4);
         scene.view.width = std::min(scene.view.width, 64U);
         scene.view.height = std::min(scene.view.height, 64U);
         const cpu::Mesh mesh = take(cpu::Mesh::create(scene.mesh.view()));
@@ -63,7 +63,8 @@ RandomScene sceneWithSomeSurvivors(std::mt19937_64& random, Projection projectio
         const auto function = take(cpu::TransferFunction::create(scene.transferFunction()));
         const cpu::BatchItem item{&mesh, &volume, &function, scene.poses};
         std::uint64_t survivors = 0;
-        for (const PairAnswer& pair : take(host.detect({std::span(&item, 1), scene.view, scene.threshold})).pairs) {
+        const cpu::Batch batch{.items = {&item, 1}, .view = scene.view, .threshold = scene.threshold};
+        for (const PairAnswer& pair : take(host.ask(Count{.projection = projection}, batch)).pairs) {
             survivors += pair.count;
         }
         if (survivors > 0 && survivors < 1000) {
@@ -78,9 +79,9 @@ TEST_F(CGpuTest, AnswersAsTheCppInterfaceDoesByEveryMethodAndProjection) {
     std::size_t ways = 0;
     std::size_t contacts = 0;
     for (const Projection projection : projections()) {
-        // lavapipe takes half a minute for a random scene in the projection conservative.
+        // lavapipe takes half a minute for a random scene in the projection certified.
         RandomScene scene = halfOpaque();
-        if (projection == Projection::Conservative) {
+        if (projection == Projection::Certified) {
             scene.poses.push_back(translation({0.3, 0.1, 0.2}));
         } else {
             scene = sceneWithSomeSurvivors(random, projection);
@@ -98,9 +99,9 @@ TEST_F(CGpuTest, AnswersAsTheCppInterfaceDoesByEveryMethodAndProjection) {
                 continue;
             }
             // Outputs by the cheapest method of each projection: pipelines with outputs take seconds on lavapipe.
-            const bool outputs = method == CountingMethod::Query || projection == Projection::Conservative;
+            const bool outputs = method == CountingMethod::Query || projection == Projection::Certified;
             const Outputs wanted = outputs ? kAll : Outputs{};
-            vxt_detector_desc desc = vxt_detector_desc_init();
+            vxt_detector_desc desc = sized<vxt_detector_desc>();
             desc.method = static_cast<vxt_method>(method);
             desc.projection = static_cast<vxt_projection>(projection);
             desc.filter = vxt_default_filter(desc.method);
@@ -129,19 +130,19 @@ TEST_F(CGpuTest, AnswersAsTheCppInterfaceDoesByEveryMethodAndProjection) {
     EXPECT_GT(contacts, 0U);
 }
 
-TEST_F(CGpuTest, CountsWhatThePassesOfConservativeDo) {
-    if (!context().supports(CountingMethod::Compute, Projection::Conservative)) {
-        GTEST_SKIP() << "no conservative by compute on this device";
+TEST_F(CGpuTest, CountsWhatThePassesOfCertifiedDo) {
+    if (!context().supports(CountingMethod::Compute, Projection::Certified)) {
+        GTEST_SKIP() << "no certified by compute on this device";
     }
     RandomScene scene = halfOpaque();
     scene.poses.push_back(translation({0.3, 0.1, 0.2}));
     const CScene sides(context_.get(), queue_, scene, twoLabels());
     const COneItem item(sides, scene);
-    vxt_detector_desc desc = vxt_detector_desc_init();
+    vxt_detector_desc desc = sized<vxt_detector_desc>();
     desc.method = VXT_METHOD_COMPUTE;
-    desc.projection = VXT_PROJECTION_CONSERVATIVE;
+    desc.projection = VXT_PROJECTION_CERTIFIED;
     const Owned<vxt_answer> answer = newAnswer();
-    vxt_certified_counters counters = vxt_certified_counters_init();
+    vxt_certified_counters counters = sized<vxt_certified_counters>();
     need(vxt_blocking_detector_detect(newBlocking(desc).get(), &item.batch, answer.get()));
     EXPECT_EQ(vxt_answer_counters(answer.get(), &counters), VXT_ERROR_NOT_READY);
     desc.counters = 1;
@@ -157,19 +158,19 @@ TEST_F(CGpuTest, CountsWhatThePassesOfConservativeDo) {
 }
 
 TEST_F(CGpuTest, ResultsHaveTheQueuesThatAreAskedFor) {
-    if (!context().supports(CountingMethod::Compute, Projection::Conservative)) {
-        GTEST_SKIP() << "no conservative by compute on this device";
+    if (!context().supports(CountingMethod::Compute, Projection::Certified)) {
+        GTEST_SKIP() << "no certified by compute on this device";
     }
     const RandomScene scene = halfOpaque();
     const CScene sides(context_.get(), queue_, scene, twoLabels());
     const COneItem item(sides, scene);
     RawVulkan raw(gpu().device);
-    vxt_detector_desc desc = vxt_detector_desc_init();
+    vxt_detector_desc desc = sized<vxt_detector_desc>();
     desc.method = VXT_METHOD_COMPUTE;
-    desc.projection = VXT_PROJECTION_CONSERVATIVE;
+    desc.projection = VXT_PROJECTION_CERTIFIED;
     desc.counters = 1;
     const Owned<vxt_detector> detector = newDetector(desc);
-    vxt_results_desc resultsDesc = vxt_results_desc_init();
+    vxt_results_desc resultsDesc = sized<vxt_results_desc>();
     vxt_results* none = nullptr;
     resultsDesc.clusters_at_once = 15;
     EXPECT_EQ(vxt_results_create(context_.get(), &resultsDesc, &none), VXT_ERROR_INVALID_ARGUMENT);
@@ -184,7 +185,7 @@ TEST_F(CGpuTest, ResultsHaveTheQueuesThatAreAskedFor) {
     raw.submitAndWait(commands);
     const Owned<vxt_answer> answer = newAnswer();
     need(vxt_results_read(with.get(), answer.get()));
-    vxt_certified_counters counters = vxt_certified_counters_init();
+    vxt_certified_counters counters = sized<vxt_certified_counters>();
     need(vxt_answer_counters(answer.get(), &counters));
     EXPECT_EQ(counters.room, 32U);
 }
@@ -193,29 +194,16 @@ TEST_F(CGpuTest, RecordsIntoTheCallersCommandBuffer) {
     const RandomScene scene = halfOpaque();
     RawVulkan raw(gpu().device);
     // Made and uploaded in two steps.
-    const vxt_volume_view volumeView = cVolume(scene.volume);
-    const vxt_mesh_view meshView = cMesh(scene.mesh);
-    const auto points = cPoints(scene.points);
-    const vxt_transfer_function_desc functionDesc = cFunction(points, scene.domain, scene.tableSize);
-    const auto volume = made<vxt_volume>(
-        vxt_volume_destroy, [&](auto out) { return vxt_volume_create(context_.get(), &volumeView, nullptr, out); });
-    const auto function = made<vxt_transfer_function>(vxt_transfer_function_destroy, [&](auto out) {
-        return vxt_transfer_function_create(context_.get(), &functionDesc, nullptr, out);
-    });
-    const auto mesh = made<vxt_mesh>(
-        vxt_mesh_destroy, [&](auto out) { return vxt_mesh_create(context_.get(), &meshView, nullptr, out); });
-    const auto labels = made<vxt_labels>(vxt_labels_destroy, [&](auto out) {
-        const VolumeData image = twoLabels();
-        const vxt_volume_view view = cVolume(image);
-        return vxt_labels_create(&view, out);
-    });
-    const auto map = made<vxt_label_map>(vxt_label_map_destroy, [&](auto out) {
-        return vxt_label_map_create(context_.get(), labels.get(), "map", out);
-    });
-    vxt_detector_desc desc = vxt_detector_desc_init();
+    const auto volume = made(vxt_volume_destroy, vxt_volume_create, context_.get(), at(cVolume(scene.volume)), nullptr);
+    const auto function = made(vxt_transfer_function_destroy, vxt_transfer_function_create, context_.get(),
+                               at(cFunction(cPoints(scene.points), scene.domain, scene.tableSize)), nullptr);
+    const auto mesh = made(vxt_mesh_destroy, vxt_mesh_create, context_.get(), at(cMesh(scene.mesh)), nullptr);
+    const auto labels = made(vxt_labels_destroy, vxt_labels_create, at(cVolume(twoLabels())));
+    const auto map = made(vxt_label_map_destroy, vxt_label_map_create, context_.get(), labels.get(), "map");
+    vxt_detector_desc desc = sized<vxt_detector_desc>();
     desc.outputs = cOutputs(kAll);
     const Owned<vxt_detector> detector = newDetector(desc);
-    vxt_results_desc resultsDesc = vxt_results_desc_init();
+    vxt_results_desc resultsDesc = sized<vxt_results_desc>();
     resultsDesc.outputs = desc.outputs;
     resultsDesc.triangle_room = 2;
     resultsDesc.label_room = 2;
@@ -228,20 +216,8 @@ TEST_F(CGpuTest, RecordsIntoTheCallersCommandBuffer) {
     need(vxt_transfer_function_cmd_upload(function.get(), commands));
     need(vxt_mesh_cmd_upload(mesh.get(), commands));
     need(vxt_label_map_cmd_upload(map.get(), commands));
-    vxt_item item = vxt_item_init();
-    item.mesh = mesh.get();
-    item.volume = volume.get();
-    item.transfer_function = function.get();
-    item.world_from_object = scene.poses[0].data();
-    item.pose_count = 1;
-    item.labels = map.get();
-    const vxt_view view = cView(scene.view);
-    vxt_batch batch = vxt_batch_init();
-    batch.items = &item;
-    batch.item_count = 1;
-    batch.view = &view;
-    batch.threshold = scene.threshold;
-    need(vxt_detector_cmd_detect(detector.get(), commands, &batch, results.get()));
+    const COneItem of(mesh.get(), volume.get(), function.get(), map.get(), scene);
+    need(vxt_detector_cmd_detect(detector.get(), commands, &of.batch, results.get()));
     need(vxt_results_cmd_read_back(results.get(), commands));
     const Owned<vxt_answer> answer = newAnswer();
     EXPECT_EQ(vxt_results_read(results.get(), answer.get()), VXT_ERROR_NOT_READY);
@@ -286,13 +262,13 @@ TEST_F(CGpuTest, AnswersGoIntoTheCallersBuffer) {
     const RandomScene scene = halfOpaque();
     const CScene sides(context_.get(), queue_, scene, twoLabels());
     COneItem of(sides, scene);
-    const Owned<vxt_detector> detector = newDetector(vxt_detector_desc_init());
+    const Owned<vxt_detector> detector = newDetector(sized<vxt_detector_desc>());
     RawVulkan raw(gpu().device);
     const std::vector<std::byte> untouched(1024, std::byte{0xcd});
     const RawVulkan::HostBuffer mine =
         raw.makeBuffer(std::span(untouched), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                                                  VK_BUFFER_USAGE_TRANSFER_DST_BIT);
-    vxt_results_desc desc = vxt_results_desc_init();
+    vxt_results_desc desc = sized<vxt_results_desc>();
     desc.into = {mine.buffer, 512, sizeof(PairResult) - 1};
     vxt_results* none = nullptr;
     EXPECT_EQ(vxt_results_create(context_.get(), &desc, &none), VXT_ERROR_INVALID_ARGUMENT);
@@ -315,13 +291,46 @@ TEST_F(CGpuTest, AnswersGoIntoTheCallersBuffer) {
     EXPECT_TRUE(std::equal(bytes.begin() + 512 + sizeof pair, bytes.end(), untouched.begin()));
 }
 
+TEST_F(CGpuTest, ItemsOfALaterHeaderStandFartherApart) {
+    struct Newer {
+        vxt_item known = sized<vxt_item>();
+        std::uint64_t added = 0;
+    };
+    const RandomScene scene = halfOpaque();
+    const CScene sides(context_.get(), queue_, scene, twoLabels());
+    COneItem of(sides, scene);
+    const Mat4 poses[] = {identity(), translation({100, 0, 0})};
+    Newer items[2];
+    for (std::size_t i = 0; i < 2; ++i) {
+        items[i].known = of.item;
+        items[i].known.struct_size = sizeof items[i];
+        items[i].known.world_from_object = poses[i].data();
+    }
+    of.batch.items = &items[0].known;
+    of.batch.item_count = 2;
+    const Owned<vxt_blocking_detector> detector = newBlocking(sized<vxt_detector_desc>());
+    const BatchAnswer both = ask(*detector, of);
+    ASSERT_EQ(both.pairs.size(), 2U);
+    EXPECT_EQ(both.pairs[0].count, 128U);
+    EXPECT_EQ(both.pairs[1].count, 0U); // 100 mm beside it
+    const Owned<vxt_answer> answer = newAnswer();
+    const auto refused = [&](vxt_result expected) {
+        EXPECT_EQ(vxt_blocking_detector_detect(detector.get(), &of.batch, answer.get()), expected);
+        return std::string(vxt_last_error(nullptr));
+    };
+    items[1].known.struct_size = sizeof(vxt_item);
+    EXPECT_THAT(refused(VXT_ERROR_INVALID_ARGUMENT), HasSubstr("item 1: struct_size"));
+    items[1].known.struct_size = sizeof items[1];
+    items[1].added = 1;
+    EXPECT_THAT(refused(VXT_ERROR_UNSUPPORTED), HasSubstr("item 1 has members that are set"));
+}
+
 TEST_F(CGpuTest, ARingHasASlotForEachFrame) {
     const RandomScene scene = halfOpaque();
     const CScene sides(context_.get(), queue_, scene, twoLabels());
     COneItem of(sides, scene);
-    const Owned<vxt_detector> detector = newDetector(vxt_detector_desc_init());
-    const auto ring = made<vxt_result_ring>(
-        vxt_result_ring_destroy, [&](auto out) { return vxt_result_ring_create(context_.get(), 2, nullptr, out); });
+    const Owned<vxt_detector> detector = newDetector(sized<vxt_detector_desc>());
+    const auto ring = made(vxt_result_ring_destroy, vxt_result_ring_create, context_.get(), 2, nullptr);
     RawVulkan raw(gpu().device);
     const Owned<vxt_answer> answer = newAnswer();
     EXPECT_EQ(vxt_result_ring_read(ring.get(), 0, answer.get()), VXT_ERROR_NOT_READY);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The self-test's arithmetic: the device does as the host; and a device that does not is found out, by the name of the
 // operation. Such devices are made by other instructions in the one shader that asks.
-#include "detect/arithmetic_check.h"
+#include "device/detector/arithmetic_check.h"
 #include "gpu_fixture.h"
 #include "interception.h"
 #include "voxtact_shaders/operations_comp.h"

@@ -10,12 +10,9 @@
 
 namespace voxtact::test {
 
-/// The answers of a batch, and what the passes count and how near pairs are where that is asked for.
+/// The answers of a batch, and what the passes count where that is asked for.
 struct Answered {
     std::vector<PairAnswer> pairs;
-    std::vector<PairClearance> clearances;
-    std::vector<LabelClearance> labels;
-    std::vector<SegmentMotion> motions;
     CertifiedCounters counters{};
 };
 
@@ -25,14 +22,13 @@ inline void expectNoContradiction(const PairAnswer& device, const PairAnswer& ho
     EXPECT_FALSE(!device.hit && !device.possible && host.hit);
 }
 
-/// Tests of the projection `conservative` by compute. Skipped where the device has it not.
+/// Tests of the projection `certified` by compute. Skipped where the device has it not.
 class CertifiedTest : public RawGpuTest {
   protected:
     void SetUp() override {
         RawGpuTest::SetUp();
-        if (!IsSkipped() && !HasFatalFailure() &&
-            !context().supports(CountingMethod::Compute, Projection::Conservative)) {
-            GTEST_SKIP() << "no conservative by compute on this device";
+        if (!IsSkipped() && !HasFatalFailure() && !context().supports(CountingMethod::Compute, Projection::Certified)) {
+            GTEST_SKIP() << "no certified by compute on this device";
         }
     }
 
@@ -42,12 +38,7 @@ class CertifiedTest : public RawGpuTest {
     }
     Answered detect(const Detector& detector, const Batch& batch, std::uint32_t pairs, std::uint32_t clusters) {
         const DetectorDesc& desc = detector.desc();
-        Results results = take(Results::create(context(), {.maxPairs = pairs,
-                                                           .clustersAtOnce = clusters,
-                                                           .clearances = desc.clearance.has_value(),
-                                                           .closest = desc.closest,
-                                                           .labelClearances = labelRoom(desc, batch),
-                                                           .motions = desc.motion.has_value()}));
+        Results results = take(Results::create(context(), {.maxPairs = pairs, .clustersAtOnce = clusters}));
         const VkCommandBuffer commands = raw().begin();
         take(detector.cmdDetect(commands, batch, results));
         take(results.cmdReadBack(commands));
@@ -56,27 +47,11 @@ class CertifiedTest : public RawGpuTest {
         for (const PairResult& pair : take(results.read())) {
             out.pairs.push_back(unpack(pair));
         }
-        if (desc.clearance) {
-            out.clearances = take(results.readClearances());
-        }
-        EXPECT_EQ(results.measuredLabels(), desc.labelClearances);
-        if (desc.labelClearances) {
-            out.labels = take(results.readLabelClearances());
-        }
-        EXPECT_EQ(results.moved(), desc.motion.has_value());
-        if (desc.motion) {
-            out.motions = take(results.readMotions());
-        }
         EXPECT_EQ(results.counted(), desc.counters);
         if (desc.counters) {
             out.counters = take(results.counters());
         }
         return out;
-    }
-
-  private:
-    static std::uint32_t labelRoom(const DetectorDesc& desc, const Batch& batch) {
-        return desc.labelClearances ? static_cast<std::uint32_t>(batch.labels.size()) : 0;
     }
 };
 

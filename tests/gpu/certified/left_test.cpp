@@ -3,6 +3,7 @@
 // what would be too much is said to be undecided.
 #include "certified/counted_fixture.h"
 #include "cpu/scenes/oracle_scenes.h"
+#include "support/host_meters.h"
 #include "voxtact/cpu.h"
 
 #include <gtest/gtest.h>
@@ -13,8 +14,7 @@
 namespace voxtact::test {
 namespace {
 
-constexpr DetectorDesc kCount{
-    .method = CountingMethod::Compute, .projection = Projection::Conservative, .counters = true};
+constexpr DetectorDesc kCount{.method = CountingMethod::Compute, .projection = Projection::Certified, .counters = true};
 
 class LeftTest : public CertifiedTest {
   protected:
@@ -25,7 +25,7 @@ class LeftTest : public CertifiedTest {
         const cpu::TransferFunction function = take(cpu::TransferFunction::create(table));
         const cpu::Mesh shape = take(cpu::Mesh::create(mesh.view()));
         const cpu::BatchItem item{&shape, &volume, &function, poses};
-        return take(take(cpu::Detector::create({.projection = Projection::Conservative}))
+        return take(take(cpu::Detector::create({.projection = Projection::Certified}))
                         .detect({{&item, 1}, {}, threshold}))
             .pairs;
     }

@@ -51,7 +51,7 @@ struct Sides {
     [[nodiscard]] cpu::BatchItem hostItem(std::span<const Mat4> poses) const { return host.item(poses); }
 };
 
-/// One pair, looked at by the device.
+/// One pair, examined by the device.
 inline BatchAnswer askPair(BlockingDetector& detector, const Context& context, const QueueAccess& queue,
                            const oracle::OraclePair& pair, bool clusters) {
     const DeviceSide side(context, queue, pair.volume, pair.transferFunction, pair.mesh, clusters);
@@ -59,7 +59,7 @@ inline BatchAnswer askPair(BlockingDetector& detector, const Context& context, c
     return take(detector.detect({{&item, 1}, {}, pair.threshold}));
 }
 
-/// One pair, looked at by the host: `look` takes the batch.
+/// One pair, examined by the host: `look` takes the batch.
 template <class Look> auto onHost(const oracle::OraclePair& pair, Look look) {
     const HostSide side(pair.volume, pair.transferFunction, pair.mesh);
     const cpu::BatchItem item = side.item({&pair.world_from_object, 1});

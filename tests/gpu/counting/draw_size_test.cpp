@@ -2,11 +2,12 @@
 // Draws and dispatches of the projections with fragments are as large as ContextDesc::fragmentsAtOnce says, and no
 // answer depends on it. Nor does one on how many work groups the device has.
 #include "core/geometry/pair_transform.h"
-#include "detect/pixel_slices.h"
-#include "exact.h"
-#include "gpu/scene_impl.h"
+#include "device/count/pixel_slices.h"
+#include "device/scene/scene_impl.h"
+#include "exact/exact.h"
 #include "gpu_fixture.h"
 #include "interception.h"
+#include "support/host_meters.h"
 #include "support/scenes.h"
 #include "voxtact/cpu.h"
 #include "voxtact/samples.h"
@@ -255,8 +256,9 @@ TEST_F(DrawSizeTest, NoLaneHasMorePixelsThanItShould) {
         for (std::size_t triangle = 0; triangle < 64; ++triangle) {
             shader::ExactCorner corners[EXACT_MAX_CORNERS];
             for (std::size_t corner = 0; corner < 3; ++corner) {
-                const float* at = &data.positions[9 * triangle + 3 * corner];
-                corners[corner] = shader::exactVertex(transform, at[0], at[1], at[2]);
+                const double* at = &data.positions[9 * triangle + 3 * corner];
+                corners[corner] = shader::exactVertex(transform, static_cast<float>(at[0]), static_cast<float>(at[1]),
+                                                      static_cast<float>(at[2]));
             }
             const int count = shader::exactClip(3, corners, guard, guard);
             for (int i = 1; i + 1 < count; ++i) {

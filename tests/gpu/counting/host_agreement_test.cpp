@@ -3,11 +3,12 @@
 // by fragment.
 #include "gpu_fixture.h"
 
+#include "bench/engines/localize.h"
 #include "core/method/method_table.h"
 #include "cpu/scenes/random_scene.h"
 #include "few_kinds.h"
-#include "lab/engines/localize.h"
 #include "oracle/oracle.h"
+#include "support/host_meters.h"
 #include "support/scenes.h"
 #include "voxtact/cpu.h"
 #include "voxtact/io.h"
@@ -93,7 +94,7 @@ class HostAgreementTest : public GpuTest {
         std::mt19937_64 random(testSeed());
         std::uint64_t survivors = 0;
         const std::size_t least = scenes * kPosesOfAScene;
-        FewKindsOfImage few(ImageKinds::Most);
+        FewKindsOfImage few;
         for (std::size_t i = 0; (i < scenes || survivors <= least) && i < 10 * scenes && !HasFailure(); ++i) {
             const RandomScene scene = few.next([&] { return makeRandomScene(random, kPosesOfAScene); });
             survivors += expectAgreement(scene.rangeTest ? range : clamp, scene, "scene " + std::to_string(i));
@@ -187,7 +188,7 @@ TEST_F(HostAgreementTest, ComputeOfTrianglesWithAFarCorner) {
     std::mt19937_64 random(testSeed());
     std::size_t hits = 0;
     const std::size_t scenes = randomCases(3000, 100);
-    FewKindsOfImage few(ImageKinds::Most);
+    FewKindsOfImage few;
     for (const Projection projection : {Projection::View, Projection::TwoView, Projection::DominantAxis}) {
         for (const Boundary boundary : {Boundary::Range, Boundary::Clamp}) {
             SCOPED_TRACE(std::string(toString(projection)) + ", " + toString(boundary));
@@ -246,7 +247,7 @@ TEST_F(HostAgreementTest, AllMethodsOnTheRealHead) {
 TEST_F(HostAgreementTest, EveryDifferingFragmentHasAReason) {
     std::mt19937_64 random(testSeed());
     FragmentTrace trace = take(FragmentTrace::create(context(), Filter::Hardware, queue()));
-    FewKindsOfImage few(ImageKinds::Most);
+    FewKindsOfImage few;
     for (std::size_t i = 0; (i < randomCases(kScenes, 2) || compared_ <= 10000) && i < kScenes && !HasFailure(); ++i) {
         const RandomScene scene = few.next([&] { return makeRandomScene(random, 2); });
         if (scene.domain.hi - scene.domain.lo > kWidestDomain) {
@@ -261,7 +262,7 @@ TEST_F(HostAgreementTest, EveryDifferingFragmentHasAReason) {
 TEST_F(HostAgreementTest, EveryDifferingFragmentOfASliverHasAReason) {
     std::mt19937_64 random(testSeed());
     FragmentTrace trace = take(FragmentTrace::create(context(), Filter::Hardware, queue()));
-    FewKindsOfImage few(ImageKinds::Most);
+    FewKindsOfImage few;
     for (std::size_t i = 0; (i < randomCases(kScenes / 7, 2) || compared_ <= 10000) && i < kScenes && !HasFailure();
          ++i) {
         RandomScene scene = few.next([&] { return makeRandomScene(random, 2); });

@@ -2,10 +2,10 @@
 // The paper's two ways to say which triangles touch, against each other and against the fragments themselves.
 #include "gpu_fixture.h"
 
-#include "cpu/certified/brick_occupancy.h"
+#include "bench/engines/localize.h"
 #include "cpu/scenes/random_scene.h"
 #include "few_kinds.h"
-#include "lab/engines/localize.h"
+#include "host/touch/cells/brick_occupancy.h"
 #include "oracle/oracle.h"
 #include "support/scenes.h"
 #include "voxtact/io.h"
@@ -91,7 +91,7 @@ class LocalizeTest : public GpuTest {
 TEST_F(LocalizeTest, AllWaysAgreeOnRandomScenes) {
     constexpr double kWidest = 1e37; // a sampler may take the difference of two voxels, which must not overflow
     std::mt19937_64 random(testSeed());
-    FewKindsOfImage few(ImageKinds::Most);
+    FewKindsOfImage few;
     // Many scenes have no triangle that touches, and in many every brick is opaque somewhere.
     const auto enough = [&] {
         return triangles_ > 100 && queries_[Localization::LeafBricks] < queries_[Localization::Leaf];

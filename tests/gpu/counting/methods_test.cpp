@@ -2,13 +2,9 @@
 // Which methods a device can do, and the self-test.
 #include "gpu_fixture.h"
 #include "interception.h"
-#include "voxtact/samples.h"
+#include "vulkan/context_impl.h"
 
 #include <gmock/gmock.h>
-
-#include <algorithm>
-#include <array>
-#include <utility>
 
 namespace voxtact::test {
 namespace {
@@ -78,9 +74,9 @@ TEST_F(MethodsTest, ComputeNeedsNoFeature) {
         EXPECT_EQ(verdict.trusted, trusted) << verdict.text;
     }
     for (const Projection projection :
-         {Projection::View, Projection::TwoView, Projection::DominantAxis, Projection::Conservative}) {
+         {Projection::View, Projection::TwoView, Projection::DominantAxis, Projection::Certified}) {
         // Floats that are not as they should be are the device's, no feature.
-        if (projection != Projection::Conservative || missingFloatControl(context.impl().floatControls) == nullptr) {
+        if (projection != Projection::Certified || missingFloatControl(context.impl().floatControls) == nullptr) {
             take(Detector::create(context, {.method = CountingMethod::Compute, .projection = projection}));
         }
     }
@@ -120,7 +116,7 @@ bool hasCapability(const std::vector<std::uint32_t>& spirv, std::uint32_t capabi
     return false;
 }
 
-TEST_F(MethodsTest, ConservativeNeedsIeeeFloats) {
+TEST_F(MethodsTest, CertifiedNeedsIeeeFloats) {
     Interception loader(gpu().instance.getInstanceProcAddr());
     ContextDesc desc = gpu().device.contextDesc();
     realProperties = reinterpret_cast<PFN_vkGetPhysicalDeviceProperties2>(
@@ -130,17 +126,17 @@ TEST_F(MethodsTest, ConservativeNeedsIeeeFloats) {
     loader.replace("vkGetPhysicalDeviceProperties2", &propertiesOfFloats);
     loader.replace("vkCreateShaderModule", &keptModule);
     desc.getInstanceProcAddr = Interception::getInstanceProcAddr();
-    constexpr DetectorDesc kCertified{.method = CountingMethod::Compute, .projection = Projection::Conservative};
+    constexpr DetectorDesc kCertified{.method = CountingMethod::Compute, .projection = Projection::Certified};
     for (const bool bare : {false, true}) {
         bareFloats = bare;
         madeModules.clear();
         const Context context = take(Context::create(desc));
         EXPECT_TRUE(context.supports(CountingMethod::Compute, Projection::View));
-        EXPECT_FALSE(context.supports(CountingMethod::Query, Projection::Conservative));
+        EXPECT_FALSE(context.supports(CountingMethod::Query, Projection::Certified));
         EXPECT_TRUE(Detector::create(context, {.method = CountingMethod::Compute}).ok());
         EXPECT_TRUE(Detector::create(context, {.method = CountingMethod::Query}).ok());
         const Result<Detector> certified = Detector::create(context, kCertified);
-        ASSERT_EQ(certified.ok(), context.supports(CountingMethod::Compute, Projection::Conservative));
+        ASSERT_EQ(certified.ok(), context.supports(CountingMethod::Compute, Projection::Certified));
         EXPECT_FALSE(certified.ok() && bare);
         if (bare) {
             EXPECT_EQ(certified.error().code, ErrorCode::Unsupported);
@@ -162,67 +158,6 @@ TEST_F(MethodsTest, RequiredFeaturesAreNamedWhenMissing) {
     ASSERT_FALSE(context.ok());
     EXPECT_EQ(context.error().code, ErrorCode::Unsupported);
     EXPECT_THAT(context.error().text, HasSubstr("dynamicRendering"));
-}
-
-TEST_F(MethodsTest, MeasuresWhatItTrusts) {
-    const MeasureScene scene = take(makeMeasureScene());
-    const auto speeds = take(measureMethods(context(), queue(), {.scene = &scene, .repetitions = 1}));
-    ASSERT_EQ(speeds.size(), context().methods().size());
-    for (std::size_t i = 0; i < speeds.size(); ++i) {
-        EXPECT_EQ(speeds[i].verdict.method, context().methods()[i].method);
-        EXPECT_TRUE(speeds[i].verdict.trusted) << speeds[i].verdict.text;
-        EXPECT_GT(speeds[i].pairsPerSecond, 1) << toString(speeds[i].verdict.method);
-        EXPECT_LT(speeds[i].pairsPerSecond, 1e9) << toString(speeds[i].verdict.method);
-    }
-}
-
-TEST_F(MethodsTest, MeasuresTheChosenMethodsByTheChosenFilter) {
-    constexpr std::array kMethods{CountingMethod::Atomic, CountingMethod::Query};
-    const MeasureScene scene = take(makeMeasureScene());
-    const auto speeds = take(measureMethods(
-        context(), queue(), {.scene = &scene, .methods = kMethods, .filter = Filter::Exact, .repetitions = 0}));
-    ASSERT_EQ(speeds.size(), 2U);
-    EXPECT_EQ(speeds[0].verdict.method, CountingMethod::Query);
-    EXPECT_EQ(speeds[1].verdict.method, CountingMethod::Atomic);
-    EXPECT_GT(speeds[0].pairsPerSecond * speeds[1].pairsPerSecond, 0);
-}
-
-TEST_F(MethodsTest, MeasuresNothingThatIsNotThere) {
-    const device::VulkanDevice device =
-        deviceWithout([](FeatureRequest& request) { request.features2.features.fragmentStoresAndAtomics = VK_FALSE; });
-    const Context context = take(Context::create(device.contextDesc()));
-    constexpr std::array kMethods{CountingMethod::Query, CountingMethod::Atomic};
-    const MeasureScene scene = take(makeMeasureScene());
-    const auto speeds =
-        take(measureMethods(context, device.queueAccess(), {.scene = &scene, .methods = kMethods, .repetitions = 1}));
-    ASSERT_EQ(speeds.size(), 2U);
-    EXPECT_GT(speeds[0].pairsPerSecond, 0);
-    EXPECT_FALSE(speeds[1].verdict.available);
-    EXPECT_EQ(speeds[1].pairsPerSecond, 0);
-    EXPECT_THAT(speeds[1].verdict.text, HasSubstr("fragmentStoresAndAtomics"));
-
-    MeasureScene empty = take(makeMeasureScene());
-    empty.world_from_object.clear();
-    for (const MeasureScene* none : {&std::as_const(empty), static_cast<const MeasureScene*>(nullptr)}) {
-        const auto refused = measureMethods(context, device.queueAccess(), {.scene = none});
-        ASSERT_FALSE(refused.ok());
-        EXPECT_EQ(refused.error().code, ErrorCode::InvalidArgument);
-        EXPECT_THAT(refused.error().text, HasSubstr("MeasureDesc::scene"));
-    }
-}
-
-TEST_F(MethodsTest, TheMeasuredSceneHasHitsAndMisses) {
-    const MeasureScene scene = take(makeMeasureScene());
-    const Volume volume = upload(scene.volume);
-    const Mesh mesh = upload(scene.mesh);
-    const TransferFunction function = upload(scene.points, scene.domain);
-    BlockingDetector query = detector({.method = CountingMethod::Query});
-    const BatchItem item{&mesh, &volume, &function, scene.world_from_object};
-    const BatchAnswer answer = take(query.detect({{&item, 1}, scene.view, scene.threshold}));
-    ASSERT_EQ(answer.pairs.size(), 32U);
-    const auto hits = std::ranges::count_if(answer.pairs, [](const PairAnswer& pair) { return pair.hit; });
-    EXPECT_GE(hits, 16);
-    EXPECT_LT(hits, 32);
 }
 
 } // namespace

@@ -2,7 +2,7 @@
 // The projections two-view and dominant-axis by every method: what they see that a view does not, counts that are known
 // beforehand, and what is refused.
 #include "core/method/method_table.h"
-#include "gpu/scene_impl.h"
+#include "device/scene/scene_impl.h"
 #include "gpu_fixture.h"
 #include "support/scenes.h"
 
@@ -257,7 +257,7 @@ TEST_F(ProjectionsTest, BadOnesAreRefused) {
         EXPECT_EQ(answer.error().code, ErrorCode::LimitExceeded);
         EXPECT_THAT(answer.error().text, HasSubstr("32000x32000"));
     }
-    // The camera is looked at where there is one.
+    // The camera is examined where there is one.
     BlockingDetector both = detector({.projection = Projection::TwoView});
     EXPECT_THAT(both.detect({std::span(&item, 1), {}, 0.5}).error().text, HasSubstr("singular"));
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Refusals that only a device can give. Each says what, and nothing is lost: the next call works.
-#include "gpu/context_impl.h"
+#include "device/touch/certified_queues.h"
 #include "gpu_fixture.h"
 #include "interception.h"
-#include "motion_words.h"
 #include "raw_vulkan.h"
 #include "support/scenes.h"
+#include "vulkan/context_impl.h"
 
 #include <gmock/gmock.h>
 
@@ -115,24 +115,19 @@ TEST_F(BadInputTest, MorePairsThanABufferHolds) {
 }
 
 TEST_F(BadInputTest, MorePairsThanThereIsRoomForBesideTheQueues) {
-    // The pairs themselves fit, what motions need of each does not.
-    const auto pairs =
-        static_cast<std::uint32_t>(context().impl().limits.maxStorageBufferRange / sizeof(shader::MotionState));
+    // The pairs themselves fit.
     const VkDeviceSize range = context().impl().limits.maxStorageBufferRange;
+    const auto pairs = static_cast<std::uint32_t>((range - kSetupBytes - kOpaqueBytes) / sizeof(shader::PairTransform));
     const VkDeviceSize most = context().impl().maxAllocation;
     const std::string limit = range <= most ? "maxStorageBufferRange is " + std::to_string(range)
                                             : "maxMemoryAllocationSize is " + std::to_string(most);
-    for (const std::optional<std::uint32_t> clusters :
-         {std::optional<std::uint32_t>(16), std::optional<std::uint32_t>()}) {
-        const Result<Results> results =
-            Results::create(context(), {.maxPairs = pairs, .clustersAtOnce = clusters, .motions = true});
-        ASSERT_FALSE(results.ok());
-        EXPECT_EQ(results.error().code, ErrorCode::LimitExceeded);
-        EXPECT_THAT(results.error().text,
-                    AllOf(HasSubstr(std::to_string(pairs) + " pairs with the queues of the projection conservative and "
-                                                            "motions need a buffer of "),
-                          HasSubstr(limit)));
-    }
+    const Result<Results> results = Results::create(context(), {.maxPairs = pairs, .clustersAtOnce = 16});
+    ASSERT_FALSE(results.ok());
+    EXPECT_EQ(results.error().code, ErrorCode::LimitExceeded);
+    EXPECT_THAT(
+        results.error().text,
+        AllOf(HasSubstr(std::to_string(pairs) + " pairs with the queues of the projection certified need a buffer "),
+              HasSubstr(limit)));
 }
 
 TEST_F(BadInputTest, HostDataIsChecked) {

@@ -213,7 +213,7 @@ TEST_F(CallerResultsTest, AYesIsOne) {
     const Mesh mesh = upload(makeFlat(-3, 4, -2.5, 3.5, 0.43));
     const std::vector<Mat4> poses(10, identity());
     const BatchItem item{&mesh, &volume, &function, poses};
-    DetectorDesc desc{.method = CountingMethod::Compute, .projection = Projection::Conservative};
+    DetectorDesc desc{.method = CountingMethod::Compute, .projection = Projection::Certified};
     Results results = take(Results::create(context(), {.maxPairs = 10}));
     for (const bool yesNo : {false, true}) {
         desc.stopAtFirst = yesNo;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Poses in device memory: the pairs that the device makes of them are those of the host, bit for bit.
 #include "certified/counted_fixture.h"
-#include "detect/results/results_impl.h"
+#include "device/results/results_impl.h"
+#include "exact/shared.h"
 #include "few_kinds.h"
-#include "gpu/context_impl.h"
 #include "raw_fixture.h"
-#include "shared.h"
 #include "support/scenes.h"
 #include "voxtact/samples.h"
+#include "vulkan/context_impl.h"
 
 #include <gmock/gmock.h>
 
@@ -21,6 +21,8 @@
 namespace voxtact::test {
 namespace {
 
+using testing::AllOf;
+using testing::Contains;
 using testing::HasSubstr;
 
 constexpr std::size_t kPoseFloats = 16;
@@ -80,6 +82,16 @@ Grid anyGrid(std::mt19937_64& random) {
     return grid;
 }
 
+/// mm: no float holds it.
+constexpr double kFar = 3000.1;
+
+MeshData movedBy(MeshData mesh, double by) {
+    for (double& coordinate : mesh.positions) {
+        coordinate += by;
+    }
+    return mesh;
+}
+
 class DevicePosesTest : public CertifiedTest {
   protected:
     /// A mapped buffer with the poses.
@@ -116,7 +128,7 @@ class DevicePosesTest : public CertifiedTest {
         }
         return out;
     }
-    std::size_t comparePairs(const Context& with, std::size_t scenes, std::mt19937_64& random);
+    std::size_t comparePairs(std::size_t scenes, std::mt19937_64& random);
     std::vector<PairResult> run(const Detector& detector, const Batch& batch, Results& results) {
         const VkCommandBuffer commands = raw().begin();
         take(detector.cmdDetect(commands, batch, results));
@@ -132,35 +144,38 @@ bool operator==(const PairResult& a, const PairResult& b) {
 }
 
 /// Of as many scenes as that. Returns how many numbers of the pairs were finite.
-std::size_t DevicePosesTest::comparePairs(const Context& with, std::size_t scenes, std::mt19937_64& random) {
+std::size_t DevicePosesTest::comparePairs(std::size_t scenes, std::mt19937_64& random) {
     constexpr std::size_t kPoses = 100;
     std::size_t finite = 0;
     std::map<Projection, Detector> detectors;
-    for (const Projection projection : {Projection::Conservative, Projection::TwoView}) {
-        detectors.emplace(
-            projection, take(Detector::create(
-                            with, {.method = CountingMethod::Compute, .projection = projection, .devicePoses = true})));
+    for (const Projection projection : {Projection::Certified, Projection::TwoView}) {
+        detectors.emplace(projection, take(Detector::create(context(), {.method = CountingMethod::Compute,
+                                                                        .projection = projection,
+                                                                        .devicePoses = true})));
     }
     for (std::size_t scene = 0; scene < scenes; ++scene) {
         const Grid grid = anyGrid(random);
-        const Volume volume =
-            take(Volume::upload(with, queue(), makeBytes(grid, [](auto...) { return 0.0; }).view(), {.bricks = true}));
+        const Volume volume = take(
+            Volume::upload(context(), queue(), makeBytes(grid, [](auto...) { return 0.0; }).view(), {.bricks = true}));
         const TransferFunction function =
-            take(TransferFunction::upload(with, queue(), {byteRamp(), {0, 255}, kDefaultTableSize}));
-        const Mesh mesh = take(Mesh::upload(with, queue(), makeFlat(0, 1, 0, 1, 0.5).view()));
+            take(TransferFunction::upload(context(), queue(), {byteRamp(), {0, 255}, kDefaultTableSize}));
+        // Every other mesh is far from its own origin.
+        const MeshData flat = movedBy(makeFlat(0, 1, 0, 1, 0.5), scene % 2 == 1 ? kFar : 0);
+        const Mesh mesh = take(Mesh::upload(context(), queue(), flat.view()));
+        EXPECT_EQ(mesh.impl().known.origin.offset[0] != 0, scene % 2 == 1);
         std::vector<Mat4> poses(kPoses);
         std::ranges::generate(poses, [&] { return anyPose(grid, random); });
         const RawVulkan::HostBuffer buffer = write(poses);
-        const PoseBuffer onDevice = take(PoseBuffer::wrap(with, {.buffer = buffer.buffer, .count = kPoses}));
+        const PoseBuffer onDevice = take(PoseBuffer::wrap(context(), {.buffer = buffer.buffer, .count = kPoses}));
         for (const auto& [projection, detector] : detectors) {
             const View view = flatView(-50, 50, 8, 8);
             const std::array items{
                 BatchItem{&mesh, &volume, &function, poses},
                 BatchItem{.mesh = &mesh, .volume = &volume, .transferFunction = &function, .poses = &onDevice}};
-            Results results = take(Results::create(with, {.maxPairs = 2 * kPoses}));
+            Results results = take(Results::create(context(), {.maxPairs = 2 * kPoses}));
             const std::vector<PairResult> found = run(detector, {items, view, 0.5}, results);
-            const std::size_t ofPair = projection == Projection::Conservative ? sizeof(shader::CertifiedPair)
-                                                                              : 2 * sizeof(shader::PairTransform);
+            const std::size_t ofPair =
+                projection == Projection::Certified ? sizeof(shader::CertifiedPair) : 2 * sizeof(shader::PairTransform);
             const std::vector<std::byte> bytes = raw().readBuffer(results.impl().transforms.get(), 2 * kPoses * ofPair);
             for (std::size_t i = 0; i < kPoses && !HasFailure(); ++i) {
                 std::vector<float> host(ofPair / sizeof(float));
@@ -188,22 +203,22 @@ std::size_t DevicePosesTest::comparePairs(const Context& with, std::size_t scene
 
 TEST_F(DevicePosesTest, PairsAreThoseOfTheHostBitForBit) {
     std::mt19937_64 random(testSeed());
-    EXPECT_GT(comparePairs(context(), randomCases(1000, 200), random), 10'000U);
+    EXPECT_GT(comparePairs(randomCases(1000, 200), random), 10'000U);
 }
 
-/// Where the device has no doubles, integers make them.
-TEST_F(DevicePosesTest, PairsAreThoseOfTheHostWithoutDoubles) {
-    if (!context().impl().floatControls.doubles) {
-        GTEST_SKIP() << "this device has none: the test before has looked at that";
-    }
-    std::mt19937_64 random(testSeed());
+TEST_F(DevicePosesTest, ADeviceWithoutDoublesIsRefusedByName) {
     FeatureRequest less(gpu().device.contextDesc().enabledFeatures);
     less.features2.features.shaderFloat64 = VK_FALSE;
     ContextDesc desc = gpu().device.contextDesc();
     desc.enabledFeatures = &less.features2;
-    const Context integers = take(Context::create(desc));
-    EXPECT_FALSE(integers.impl().floatControls.doubles);
-    EXPECT_GT(comparePairs(integers, randomCases(1000, 200), random), 10'000U);
+    const CheckReport report = check(desc);
+    EXPECT_TRUE(report.usable);
+    EXPECT_THAT(report.missing, Contains(AllOf(HasSubstr("shaderFloat64"), HasSubstr("no poses on the device"))));
+    const Context without = take(Context::create(desc));
+    const Result<Detector> detector = Detector::create(without, {.devicePoses = true});
+    ASSERT_FALSE(detector.ok());
+    EXPECT_EQ(detector.error().code, ErrorCode::Unsupported);
+    EXPECT_THAT(detector.error().text, HasSubstr("lacks shaderFloat64"));
 }
 
 TEST_F(DevicePosesTest, AnswersAreThoseOfHostPosesByEveryMethod) {
@@ -212,9 +227,13 @@ TEST_F(DevicePosesTest, AnswersAreThoseOfHostPosesByEveryMethod) {
     const Volume volume = take(Volume::upload(context(), queue(), head.view(), {.bricks = true}));
     const std::array points{ControlPoint{40, 0}, ControlPoint{80, 1}};
     const TransferFunction function = upload(points, {0, 255});
-    const Mesh mesh = take(Mesh::upload(context(), queue(), take(makeScalpel()).view(), {.clusters = true}));
+    const Mesh mesh =
+        take(Mesh::upload(context(), queue(), movedBy(take(makeScalpel()), kFar).view(), {.clusters = true}));
     const View view = View{framingCamera(head.grid, 128, 128), 128, 128};
     std::vector<Mat4> poses = randomPoses(head.grid, 70, 1, random);
+    for (Mat4& pose : poses) {
+        pose = multiply(pose, translation({-kFar, -kFar, -kFar}));
+    }
     std::ranges::transform(poses, poses.begin(), floatPose);
     const Layout layout{.offset = 20, .stride = 100};
     const RawVulkan::HostBuffer buffer = write(poses, layout);
@@ -251,6 +270,44 @@ TEST_F(DevicePosesTest, AnswersAreThoseOfHostPosesByEveryMethod) {
         }
     }
     EXPECT_GT(hits, 50U);
+}
+
+/// Of coordinates that no float holds, from the host's poses: made so, and bent so.
+TEST_F(DevicePosesTest, AMeshInMapCoordinatesTouchesWhereItIs) {
+    Grid grid;
+    grid.size = {20, 20, 20};
+    const VolumeData half = makeBytes(grid, [](auto x, auto...) { return x >= 10 ? 100.0 : 0.0; });
+    const Volume volume = take(Volume::upload(context(), queue(), half.view(), {.bricks = true}));
+    const std::array points{ControlPoint{0, 0}, ControlPoint{100, 1}};
+    const TransferFunction function = upload(points, {0, 255});
+    const std::vector<double> positions{4500008.9, 4649781.2, 1005.2,    4500008.9, 4649784.2,
+                                        1005.2,    4500008.9, 4649781.2, 1008.2};
+    const std::vector<std::uint32_t> indices{0, 1, 2};
+    const Mesh made = take(Mesh::upload(context(), queue(), {positions, indices}, {.clusters = true}));
+    const std::vector<double> before{0, 0, 0, 1, 0, 0, 0, 1, 0};
+    Mesh bent = take(Mesh::upload(context(), queue(), {before, indices}, {.clusters = true, .editable = true}));
+    const VkCommandBuffer commands = raw().begin();
+    take(bent.cmdUpdate(commands, positions));
+    raw().submitAndWait(commands);
+    EXPECT_EQ(made.facts()->bounds.hi[1], 4649784.2);
+    EXPECT_EQ(bent.facts()->rounding, made.facts()->rounding);
+    // Opaque from x = 9.1 on; before it, and behind, by more than what a sampler rounds.
+    const Mat4 pose = translation({-4500000, -4649776, -1000});
+    const std::array poses{multiply(translation({0.18, 0, 0}), pose), multiply(translation({0.22, 0, 0}), pose)};
+    const std::array items{BatchItem{&made, &volume, &function, poses}, BatchItem{&bent, &volume, &function, poses}};
+    const View view = flatView(0, 20, 64, 64);
+    for (const DetectorDesc& desc : detectors()) {
+        if (desc.projection == Projection::View || desc.projection == Projection::TwoView) {
+            continue; // cameras, which see it from its edge
+        }
+        SCOPED_TRACE(std::string(toString(desc.projection)) + " " + toString(desc.method));
+        const Detector detector = take(Detector::create(context(), desc));
+        Results results = take(Results::create(context(), {.maxPairs = 4}));
+        const std::vector<PairResult> found = run(detector, {items, view, 0.1}, results);
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            EXPECT_EQ(found[i].countLow > 0, i % 2 == 1) << i;
+        }
+    }
 }
 
 /// One recording, submitted for whatever poses are there when it executes.
@@ -304,7 +361,7 @@ TEST_F(DevicePosesTest, APoseThatCannotBeUsedIsSaidToBeRefused) {
             const PairAnswer answer = unpack(found[i]);
             EXPECT_FALSE(answer.hit) << i;
             EXPECT_EQ(answer.exactness, Exactness::Refused) << i;
-            EXPECT_EQ(answer.possible, desc.projection == Projection::Conservative) << i;
+            EXPECT_EQ(answer.possible, desc.projection == Projection::Certified) << i;
             EXPECT_EQ(answer.pose, i);
         }
         EXPECT_TRUE(unpack(found[18]).hit);
@@ -333,7 +390,7 @@ TEST_F(DevicePosesTest, ManyItemsWithGridsOfTheirOwn) {
     for (const Volume& volume : volumes) {
         items.push_back({.mesh = &mesh, .volume = &volume, .transferFunction = &function, .poses = &onDevice});
     }
-    for (const Projection projection : {Projection::Conservative, Projection::DominantAxis}) {
+    for (const Projection projection : {Projection::Certified, Projection::DominantAxis}) {
         const Detector detector = take(Detector::create(
             context(), {.method = CountingMethod::Compute, .projection = projection, .devicePoses = true}));
         Results results = take(Results::create(context(), {.maxPairs = 1600}));
@@ -365,7 +422,7 @@ TEST_F(DevicePosesTest, WhatCannotBeUsedIsRefusedByName) {
     const TransferFunction function = upload(byteRamp(), {0, 255});
     const Mesh mesh = upload(makeFlat(0, 1, 0, 1, 0.5));
     const std::array<Mat4, 1> host{identity()};
-    DetectorDesc desc{.method = CountingMethod::Compute, .projection = Projection::Conservative};
+    DetectorDesc desc{.method = CountingMethod::Compute, .projection = Projection::Certified};
     BatchItem item{.mesh = &mesh, .volume = &volume, .transferFunction = &function, .poses = &poses};
     BlockingDetector asked = detector(desc);
     const auto said = [&] {

@@ -175,6 +175,18 @@ TEST_F(EmbeddingTest, WrappedObjectsOfTheCaller) {
     const TransferFunction known = take(TransferFunction::wrap(context, wrappedTable));
     const Detector detector = take(Detector::create(context, {}));
     EXPECT_EQ(detector.boundaryFor({&indexed, &vouched, &known, {}}, 0.5), Boundary::Clamp);
+
+    // Entries that are the threshold in single precision reach it, certainly.
+    const std::vector<float> level(64, 0.7F);
+    wrappedTable.view = raw.makeImage(VK_IMAGE_TYPE_1D, VK_FORMAT_R32_SFLOAT, {64, 1, 1},
+                                      std::as_bytes(std::span(level)), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    wrappedTable.table = level;
+    const TransferFunction flat = take(TransferFunction::wrap(context, wrappedTable));
+    const Volume own = take(Volume::upload(context, device.queueAccess(), bytes.view(), {.bricks = true}));
+    const BatchItem item{&indexed, &own, &flat, std::span(&pose, 1)};
+    BlockingDetector certified = take(BlockingDetector::create(
+        context, {.method = CountingMethod::Compute, .projection = Projection::Certified}, device.queueAccess()));
+    EXPECT_TRUE(take(certified.detect({{&item, 1}, {}, 0.7})).pairs.at(0).hit);
 }
 
 TEST_F(EmbeddingTest, FramesInFlightAreReadWithoutAStall) {

@@ -41,7 +41,7 @@ TEST_F(MessagesTest, MakingPipelinesSaysNothing) {
         const Context context = take(Context::create(gpu().device.contextDesc()));
         for (const Projection projection : projections()) {
             const CountingMethod method =
-                projection == Projection::Conservative ? CountingMethod::Compute : context.defaultMethod();
+                projection == Projection::Certified ? CountingMethod::Compute : context.defaultMethod();
             if (context.supports(method, projection)) {
                 take(Detector::create(context, {.method = method, .projection = projection}));
             }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What an embedder gets wrong: each refused by name, before anything is recorded.
-#include "detect/outputs/output_store.h"
+#include "device/outputs/output_store.h"
 #include "raw_fixture.h"
+#include "support/host_meters.h"
 #include "support/scenes.h"
 #include "voxtact/cpu.h"
 #include "voxtact/render.h"
@@ -62,8 +63,6 @@ TEST_F(MisuseTest, NumbersOfNothing) {
               "there is no boundary number 99");
     EXPECT_EQ(cpu::Detector::create({.boundary = static_cast<Boundary>(99)}).error().text,
               "there is no boundary number 99");
-    EXPECT_EQ(measureMethods(context(), queue(), {.filter = static_cast<Filter>(99)}).error().text,
-              "there is no filter number 99");
     VolumeData data = bytes();
     data.type = static_cast<ScalarType>(77);
     EXPECT_EQ(Volume::create(context(), data.view()).error().text, "there is no scalar type number 77");
@@ -76,7 +75,7 @@ TEST_F(MisuseTest, WrappedImagesInLayoutsThatNobodyCanSample) {
     volume.format = volume_->format();
     volume.grid = unitGrid(4);
     WrappedTransferFunction function;
-    function.view = volume_->view(); // of no use as a table, and never looked at
+    function.view = volume_->view(); // of no use as a table, and never examined
     for (const VkImageLayout layout :
          {VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL}) {
         volume.layout = function.layout = layout;
@@ -153,8 +152,8 @@ TEST_F(MisuseTest, WhatWasNeverUploaded) {
 }
 
 TEST_F(MisuseTest, BricksThatWereNeverFilled) {
-    if (!context().supports(CountingMethod::Compute, Projection::Conservative)) {
-        GTEST_SKIP() << "no conservative";
+    if (!context().supports(CountingMethod::Compute, Projection::Certified)) {
+        GTEST_SKIP() << "no certified";
     }
     WrappedVolume wrap;
     wrap.view = volume_->view();
@@ -162,7 +161,7 @@ TEST_F(MisuseTest, BricksThatWereNeverFilled) {
     wrap.grid = unitGrid(4);
     wrap.bricks = true;
     Volume volume = take(Volume::wrap(context(), wrap));
-    const DetectorDesc desc{.method = CountingMethod::Compute, .projection = Projection::Conservative};
+    const DetectorDesc desc{.method = CountingMethod::Compute, .projection = Projection::Certified};
     BatchItem bad = item();
     bad.volume = &volume;
     EXPECT_THAT(refused(desc, bad).text, HasSubstr("bricks of the wrapped volume were never filled"));

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The queues between the passes of the projection `conservative`: answers do not depend on their room.
-#include "detect/certified/certified_queues.h"
-#include "detect/certified/certified_rounds.h"
+// The queues between the passes of the projection `certified`: answers do not depend on their room.
+#include "device/touch/certified_queues.h"
+#include "device/touch/certified_rounds.h"
+#include "exact/shared.h"
 #include "raw_fixture.h"
-#include "shared.h"
 
+#include "support/host_meters.h"
 #include "support/scenes.h"
 #include "voxtact/cpu.h"
 #include "voxtact/samples.h"
@@ -18,7 +19,7 @@ using testing::HasSubstr;
 
 class QueuesTest : public RawGpuTest {
   protected:
-    /// What a batch gives where so many clusters are looked at at once.
+    /// What a batch gives where so many clusters are examined at once.
     BatchAnswer detect(const DetectorDesc& desc, const Batch& batch, std::uint32_t pairs, std::uint32_t clusters) {
         const Detector detector = take(Detector::create(context(), desc));
         Results results = take(Results::create(context(), {.maxPairs = pairs,
@@ -94,10 +95,10 @@ TEST_F(QueuesTest, NoAnswerDependsOnTheirRoom) {
         for (const auto& [outputs, stopAtFirst] : {Question{{.triangles = true}, false}, {{}, false}, {{}, true}}) {
             const BatchAnswer onHost =
                 take(take(cpu::Detector::create(
-                              {.stopAtFirst = stopAtFirst, .projection = Projection::Conservative, .outputs = outputs}))
+                              {.stopAtFirst = stopAtFirst, .projection = Projection::Certified, .outputs = outputs}))
                          .detect({{&hostItem, 1}, {}, kDefaultThreshold}));
             const DetectorDesc desc{.method = CountingMethod::Compute,
-                                    .projection = Projection::Conservative,
+                                    .projection = Projection::Certified,
                                     .outputs = outputs,
                                     .stopAtFirst = stopAtFirst};
             for (const std::uint32_t clusters : {16U, 16384U, kMostQueueRoom}) {
@@ -131,7 +132,7 @@ TEST_F(QueuesTest, HugeTrianglesThatAreLeftAreCountedWhole) {
     const Mesh mesh = take(Mesh::upload(context(), queue(), data.view(), {.clusters = true}));
     const cpu::Mesh hostMesh = take(cpu::Mesh::create(data.view()));
     const DetectorDesc desc{
-        .method = CountingMethod::Compute, .projection = Projection::Conservative, .outputs = {.triangles = true}};
+        .method = CountingMethod::Compute, .projection = Projection::Certified, .outputs = {.triangles = true}};
     for (const Noise& scene :
          {Noise{ball, ramp, 0.05, 16}, Noise{ball, ramp, 0.05, 2048}, Noise{noise, peak, 0.5, 16}}) {
         const TransferFunctionDesc table{scene.points, {0, 255}, kDefaultTableSize};
@@ -142,7 +143,7 @@ TEST_F(QueuesTest, HugeTrianglesThatAreLeftAreCountedWhole) {
         const BatchItem item{&mesh, &volume, &function, poses};
         const cpu::BatchItem hostItem{&hostMesh, &hostVolume, &hostFunction, poses};
         const BatchAnswer onHost =
-            take(take(cpu::Detector::create({.projection = Projection::Conservative, .outputs = {.triangles = true}}))
+            take(take(cpu::Detector::create({.projection = Projection::Certified, .outputs = {.triangles = true}}))
                      .detect({{&hostItem, 1}, {}, scene.threshold}));
         EXPECT_GT(onHost.pairs[0].count, 10000U);
         expectSame(detect(desc, {{&item, 1}, {}, scene.threshold}, 3, scene.clusters), onHost,
@@ -174,10 +175,10 @@ TEST_F(QueuesTest, WhatIsCountedWithoutADecisionIsCountedOnce) {
         const cpu::Mesh hostMesh = take(cpu::Mesh::create(data.view()));
         const BatchItem item{&mesh, &volume, &function, poses};
         const cpu::BatchItem hostItem{&hostMesh, &hostVolume, &hostFunction, poses};
-        const BatchAnswer onHost = take(take(cpu::Detector::create({.projection = Projection::Conservative}))
+        const BatchAnswer onHost = take(take(cpu::Detector::create({.projection = Projection::Certified}))
                                             .detect({{&hostItem, 1}, {}, kDefaultThreshold}));
         EXPECT_GT(onHost.pairs[0].count, 1000U);
-        const DetectorDesc desc{.method = CountingMethod::Compute, .projection = Projection::Conservative};
+        const DetectorDesc desc{.method = CountingMethod::Compute, .projection = Projection::Certified};
         // At 96 and 128 there is room for parts of large triangles, and not for all of their cells.
         for (const std::uint32_t clusters : {16U, 96U, 128U, 16384U}) {
             expectSame(detect(desc, {{&item, 1}, {}, kDefaultThreshold}, 3, clusters), onHost,
@@ -220,9 +221,9 @@ TEST_F(QueuesTest, WhatIsLeftOfAFullQueueIsNoCell) {
     const BatchItem item{&mesh, &volume, &function, poses};
     const cpu::BatchItem hostItem{&hostMesh, &hostVolume, &hostFunction, poses};
     const DetectorDesc desc{
-        .method = CountingMethod::Compute, .projection = Projection::Conservative, .outputs = {.triangles = true}};
+        .method = CountingMethod::Compute, .projection = Projection::Certified, .outputs = {.triangles = true}};
     const BatchAnswer onHost =
-        take(take(cpu::Detector::create({.projection = Projection::Conservative, .outputs = {.triangles = true}}))
+        take(take(cpu::Detector::create({.projection = Projection::Certified, .outputs = {.triangles = true}}))
                  .detect({{&hostItem, 1}, {}, kDefaultThreshold}));
     EXPECT_GT(onHost.pairs[0].count, 10000U);
     for (const std::uint32_t clusters : {1024U, 2048U}) {
@@ -247,11 +248,11 @@ TEST_F(QueuesTest, RoundsBeyondTheHeadersBeginEmpty) {
     poses.front() = poses[VOXTACT_HEADERS] = poses.back() = identity();
     const BatchItem item{&mesh, &volume, &function, poses};
     const cpu::BatchItem hostItem{&hostMesh, &hostVolume, &hostFunction, poses};
-    const BatchAnswer onHost = take(take(cpu::Detector::create({.projection = Projection::Conservative}))
+    const BatchAnswer onHost = take(take(cpu::Detector::create({.projection = Projection::Certified}))
                                         .detect({{&hostItem, 1}, {}, kDefaultThreshold}));
     EXPECT_GT(onHost.pairs[0].count, 0U);
     EXPECT_EQ(onHost.pairs[1].count, 0U);
-    expectSame(detect({.method = CountingMethod::Compute, .projection = Projection::Conservative},
+    expectSame(detect({.method = CountingMethod::Compute, .projection = Projection::Certified},
                       {{&item, 1}, {}, kDefaultThreshold}, static_cast<std::uint32_t>(poses.size()), 16),
                onHost, "16 clusters at once");
 }
@@ -279,8 +280,6 @@ TEST(RoomTest, IsWhatWasAskedForOrWhatTheDeviceAllows) {
     EXPECT_EQ(room({}, 1000, any), kMostRoomAnywhere);
     EXPECT_EQ(room({}, 1000, large), 65536U);
     EXPECT_EQ(room({}, 1U << 30U, large), kMostQueueRoom);
-    EXPECT_EQ(queueRoomFor({.maxPairs = 1U << 20U, .clearances = true}, large, 0), kMostRoomAnywhere);
-    EXPECT_EQ(queueRoomFor({.maxPairs = 1U << 20U, .motions = true}, large, 0), kMostRoomAnywhere);
     // No more of its memory than usual, unless that is asked for.
     EXPECT_EQ(room({}, 1U << 30U, little), 65536U);
     EXPECT_LE(queueBytes(65536), little.usualBytes);
@@ -326,7 +325,7 @@ TEST(RoomTest, FollowsTheWorkGroupsAndTheMemoryOfADevice) {
         EXPECT_EQ(limits.room, room) << groups;
         EXPECT_EQ(limits.bytes, VkDeviceSize{1} << 31U);
         EXPECT_EQ(limits.usualBytes, VkDeviceSize{64} << 20U);
-        EXPECT_LE(VOXTACT_MARGIN_ROOM_LARGE(std::uint64_t{room}), groups);
+        EXPECT_LE(room, groups);
     }
 }
 
@@ -342,7 +341,7 @@ TEST_F(QueuesTest, ResultsWithoutThemAreForOtherProjections) {
     const Batch batch{{&item, 1}, flatView(0, 1, 64, 64), 0.5};
     const Detector view = take(Detector::create(context(), {.method = CountingMethod::Compute}));
     const Detector certified =
-        take(Detector::create(context(), {.method = CountingMethod::Compute, .projection = Projection::Conservative}));
+        take(Detector::create(context(), {.method = CountingMethod::Compute, .projection = Projection::Certified}));
     take(view.cmdDetect(commands, batch, results));
     const Result<void> refused = certified.cmdDetect(commands, batch, results);
     ASSERT_FALSE(refused.ok());

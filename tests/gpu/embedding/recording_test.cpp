@@ -24,8 +24,8 @@ TEST_F(RecordingTest, OneResultsTakesOneBatchAfterTheOther) {
             descs.push_back({.method = method, .outputs = {.triangles = true, .contacts = true, .bounds = true}});
         }
     }
-    if (context().supports(CountingMethod::Compute, Projection::Conservative)) {
-        descs.push_back({.method = CountingMethod::Compute, .projection = Projection::Conservative});
+    if (context().supports(CountingMethod::Compute, Projection::Certified)) {
+        descs.push_back({.method = CountingMethod::Compute, .projection = Projection::Certified});
     }
     for (const DetectorDesc& desc : descs) {
         SCOPED_TRACE(std::string(toString(desc.method)) + " " + toString(desc.projection));
@@ -45,7 +45,7 @@ TEST_F(RecordingTest, OneResultsTakesOneBatchAfterTheOther) {
             }
             raw().submitAndWait(commands);
             const std::uint32_t count = (*results.read())[0].countLow;
-            if (desc.projection == Projection::Conservative) {
+            if (desc.projection == Projection::Certified) {
                 EXPECT_GT(count, 0U);
             } else {
                 EXPECT_EQ(count, 64U * 64U);

@@ -2,14 +2,14 @@
 // ResultsDesc::staged: what a batch is recorded with goes through mapped memory, and no answer depends on it.
 #include "core/geometry/projection.h"
 #include "core/method/method_table.h"
-#include "detect/many_poses.h"
-#include "detect/results/results_impl.h"
-#include "device/pair_pipeline.h"
-#include "gpu/context_impl.h"
+#include "device/detector/many_poses.h"
+#include "device/engine/pair_pipeline.h"
+#include "device/results/results_impl.h"
+#include "exact/shared.h"
 #include "raw_fixture.h"
-#include "shared.h"
 #include "support/scenes.h"
 #include "voxtact/samples.h"
+#include "vulkan/context_impl.h"
 
 #include <gmock/gmock.h>
 
@@ -61,7 +61,7 @@ TEST_F(StagedTest, AnswersAreTheSameByEveryMethodAndProjection) {
             Results staged = take(Results::create(context(), {.maxPairs = kMostPairs, .staged = true}));
             EXPECT_EQ(embedded.impl().staging.size, 0U);
             EXPECT_GT(staged.impl().staging.size, 0U);
-            // Few are in the command buffer all the same; one batch after the other uses the same memory.
+            // Few are in the command buffer nevertheless; one batch after the other uses the same memory.
             for (const std::size_t pairs : {kMostPairs, 10U, 150U}) {
                 const std::size_t before = pairs / 3;
                 const std::array items{
@@ -98,7 +98,7 @@ TEST_F(StagedTest, ManyPosesBecomeTheSamePairsOnTheDevice) {
     const Mesh mesh = take(Mesh::upload(context(), queue(), makeFlat(0, 1, 0, 1, 0.5).view(), {.clusters = true}));
     std::vector<Detector> hosts;
     std::vector<Detector> devices;
-    for (const Projection projection : {Projection::Conservative, Projection::TwoView, Projection::DominantAxis}) {
+    for (const Projection projection : {Projection::Certified, Projection::TwoView, Projection::DominantAxis}) {
         DetectorDesc desc{.method = CountingMethod::Compute, .projection = projection};
         hosts.push_back(take(Detector::create(context(), desc)));
         desc.devicePoses = true;
@@ -136,7 +136,7 @@ TEST_F(StagedTest, ManyPosesBecomeTheSamePairsOnTheDevice) {
             SCOPED_TRACE(row.name);
             const std::vector<std::byte> wanted = run(hosts[i], batch, embedded);
             EXPECT_EQ(run(devices[i], batch, staged), wanted);
-            if (context().impl().floatControls.doubles) {
+            if (context().impl().floatControls.doubles()) {
                 EXPECT_EQ(std::memcmp(staged.impl().staging.mapped, poses.data(), kMany * sizeof(Mat4)), 0)
                     << "the poses went another way";
             }
@@ -166,7 +166,7 @@ TEST_F(StagedTest, OtherPosesAreTheHostsAllTheSame) {
     const Volume volume = take(Volume::upload(context(), queue(), head.view(), {.bricks = true}));
     const TransferFunction function = upload(byteRamp(), {0, 255});
     const Mesh mesh = upload(take(makeScalpel()));
-    const DetectorDesc desc{.method = CountingMethod::Compute, .projection = Projection::Conservative};
+    const DetectorDesc desc{.method = CountingMethod::Compute, .projection = Projection::Certified};
     DetectorDesc many = desc;
     many.devicePoses = true;
     const Detector host = take(Detector::create(context(), desc));
@@ -187,7 +187,7 @@ TEST_F(StagedTest, OtherPosesAreTheHostsAllTheSame) {
 
 /// The conveniences take that way by themselves on a GPU, which this device says it is for once.
 TEST_F(StagedTest, ConveniencesMakePairsOnAGpu) {
-    if (!context().impl().floatControls.doubles) {
+    if (!context().impl().floatControls.doubles()) {
         GTEST_SKIP() << "this device has no doubles";
     }
     std::mt19937_64 random(testSeed());
@@ -201,7 +201,7 @@ TEST_F(StagedTest, ConveniencesMakePairsOnAGpu) {
     const Batch batch{{&item, 1}};
     for (const bool yesNo : {false, true}) {
         const DetectorDesc desc{
-            .method = CountingMethod::Compute, .projection = Projection::Conservative, .stopAtFirst = yesNo};
+            .method = CountingMethod::Compute, .projection = Projection::Certified, .stopAtFirst = yesNo};
         EXPECT_EQ(forManyPoses(context().impl(), desc, poses.size()).has_value(), !context().impl().onHost);
         const std::vector<PairAnswer> wanted =
             take(take(BlockingDetector::create(context(), desc, queue())).detect(batch)).pairs;
@@ -239,7 +239,7 @@ TEST_F(StagedTest, ConveniencesDoWithoutWhereThereIsNoRoom) {
     const BatchItem item{&mesh, &volume, &function, poses};
     const Batch batch{{&item, 1}};
     const DetectorDesc desc{
-        .method = CountingMethod::Compute, .projection = Projection::Conservative, .stopAtFirst = true};
+        .method = CountingMethod::Compute, .projection = Projection::Certified, .stopAtFirst = true};
     const ResultsDesc staged{.maxPairs = kPairs, .staged = true};
     const VkDeviceSize most = std::exchange(context().impl().maxAllocation, VkDeviceSize{kPairs} * 247);
     const Result<Results> refused = Results::create(context(), staged);

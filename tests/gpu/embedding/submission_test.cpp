@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One Vulkan call fails, and the next ones do not. An error says so; no answer is ever an old one; nothing that the
-// device still uses is destroyed or recorded anew (the validation layer sees that); and the next call is right.
+// device still uses is destroyed or recorded again (the validation layer sees that); and the next call is right.
 #include "call_faults.h"
 #include "gpu_fixture.h"
 #include "support/scenes.h"
@@ -145,7 +145,7 @@ TEST_F(SubmissionTest, AnUploadThatFailsLeavesNothingInUse) {
             }
         }
     }
-    // The wait, the wait once more and the wait for the queue: what is left is to wait at the end of the upload.
+    // The wait, the wait again and the wait for the queue: what is left is to wait at the end of the upload.
     callFault = {.functions = {"vkWaitForFences", "vkQueueWaitIdle"}, .failing = 3};
     EXPECT_FALSE(Volume::upload(faulty(), queue(), data.view(), {.bricks = true}).ok());
     EXPECT_EQ(callFault.calls, 4U);

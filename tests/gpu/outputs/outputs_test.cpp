@@ -3,15 +3,16 @@
 // for bit, the rasteriser against its own trace, and solids whose normals and depths are known.
 #include "outputs_fixture.h"
 
+#include "bench/engines/localize.h"
 #include "cpu/scenes/random_scene.h"
-#include "detect/results/results_impl.h"
+#include "device/results/results_impl.h"
 #include "few_kinds.h"
-#include "gpu/context_impl.h"
-#include "gpu/submit.h"
-#include "lab/engines/localize.h"
 #include "support/contact_scenes.h"
+#include "support/host_meters.h"
 #include "support/scenes.h"
 #include "voxtact/cpu.h"
+#include "vulkan/context_impl.h"
+#include "vulkan/submit.h"
 
 #include <gmock/gmock.h>
 
@@ -84,7 +85,7 @@ class SmallScenes {
     std::size_t poses_;
     std::uint64_t seed_ = 0;
     std::mt19937_64 local_;
-    FewKindsOfImage few_{ImageKinds::Most};
+    FewKindsOfImage few_;
 };
 
 TEST_F(OutputsTest, ComputeIsTheHostBitForBit) {
@@ -323,7 +324,7 @@ TEST_F(OutputsTest, BadDepthsAndLabelMaps) {
     }
     EXPECT_TRUE(Detector::create(context(), {.outputs = {.bounds = true, .maxDepth = nan}}).ok());
     EXPECT_THAT(Detector::create(context(), {.method = CountingMethod::Compute,
-                                             .projection = Projection::Conservative,
+                                             .projection = Projection::Certified,
                                              .outputs = {.triangles = true},
                                              .stopAtFirst = true})
                     .error()

@@ -4,6 +4,7 @@
 #include "gpu_fixture.h"
 
 #include "core/method/method_table.h"
+#include "support/host_meters.h"
 #include "support/scenes.h"
 #include "voxtact/cpu.h"
 #include "voxtact/samples.h"

@@ -2,9 +2,9 @@
 // Outputs where a caller's own commands find them: the device's layout, read-back by frames, and room.
 #include "outputs_fixture.h"
 
-#include "detect/results/results_impl.h"
-#include "gpu/context_impl.h"
-#include "gpu/submit.h"
+#include "device/results/results_impl.h"
+#include "vulkan/context_impl.h"
+#include "vulkan/submit.h"
 
 #include <algorithm>
 #include <bit>

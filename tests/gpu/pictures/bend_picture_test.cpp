@@ -18,8 +18,8 @@ class BendPictureTest : public RawGpuTest {
   protected:
     static MeshData ball() {
         MeshData data = take(makeEllipsoid(1000));
-        for (float& coordinate : data.positions) {
-            coordinate = coordinate * 0.02F + 0.5F;
+        for (double& coordinate : data.positions) {
+            coordinate = coordinate * 0.02 + 0.5;
         }
         return data;
     }
@@ -42,7 +42,7 @@ class BendPictureTest : public RawGpuTest {
     };
     static MeshData wavy(MeshData data) {
         for (std::size_t at = 0; at < data.positions.size(); at += 3) {
-            data.positions[at] += 0.15F * std::sin(9 * data.positions[at + 1]);
+            data.positions[at] += 0.15 * std::sin(9 * data.positions[at + 1]);
         }
         return data;
     }
@@ -81,7 +81,7 @@ TEST_F(BendPictureTest, WhatIsOfAnotherMeshIsRefusedAfterACopyToo) {
     const MeshData data = ball();
     Mesh mesh = take(Mesh::upload(context(), queue(), data.view(), {.editable = true}));
     const VkBuffer same =
-        raw().makeBuffer(std::span<const float>(data.positions), VK_BUFFER_USAGE_TRANSFER_SRC_BIT).buffer;
+        raw().makeBuffer(std::span<const float>(floatsOf(data.positions)), VK_BUFFER_USAGE_TRANSFER_SRC_BIT).buffer;
     MeshNormals normals = take(MeshNormals::upload(renderer.renderer(), queue(), makeCube(0, 1).view()));
     const PaintedVertices painted =
         take(PaintedVertices::upload(renderer.renderer(), queue(), std::vector<Colour>(8, Colour{1, 0, 0})));

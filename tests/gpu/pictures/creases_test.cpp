@@ -15,8 +15,8 @@ namespace {
 using testing::HasSubstr;
 
 /// The corners of a mesh's triangles, in order, as positions.
-std::vector<float> cornersOf(const MeshData& mesh) {
-    std::vector<float> corners;
+std::vector<double> cornersOf(const MeshData& mesh) {
+    std::vector<double> corners;
     for (const std::uint32_t index : mesh.indices) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             corners.push_back(mesh.positions.at(std::size_t{3} * index + axis));

@@ -3,6 +3,7 @@
 // while the frames before it are still on the device.
 #include "own_image.h"
 #include "render_fixture.h"
+#include "support/host_meters.h"
 #include "support/scenes.h"
 #include "voxtact/cpu.h"
 #include "voxtact/samples.h"
@@ -29,11 +30,11 @@ constexpr DetectorDesc kWays[] = {
     {.method = CountingMethod::Query},
     {.method = CountingMethod::Atomic},
     {.method = CountingMethod::Compute, .filter = Filter::Exact},
-    {.method = CountingMethod::Compute, .projection = Projection::Conservative},
+    {.method = CountingMethod::Compute, .projection = Projection::Certified},
 };
 constexpr std::size_t kWayCount = std::size(kWays);
 constexpr std::size_t kExact = 2;
-constexpr std::size_t kConservative = 3;
+constexpr std::size_t kCertified = 3;
 
 enum class Kind : std::uint32_t { Curve, Peak, Steps, Opaque, Faint, Clear };
 
@@ -215,8 +216,7 @@ class InteractiveTest : public PictureTest {
         const cpu::BatchItem item{&hostMesh_, &hostVolume_, &counted, {&scene_.world_from_object, 1}};
         const cpu::Batch batch{{&item, 1}, view(), kThreshold};
         expectSame(frame.answers[kExact], take(hostExact_.detect(batch)).pairs.front(), "host", kExact);
-        expectSame(frame.answers[kConservative], take(hostConservative_.detect(batch)).pairs.front(), "host",
-                   kConservative);
+        expectSame(frame.answers[kCertified], take(hostCertified_.detect(batch)).pairs.front(), "host", kCertified);
     }
 
     /// Without anything opaque nothing touches; without opacity the volume is not to be seen either.
@@ -255,7 +255,7 @@ class InteractiveTest : public PictureTest {
     cpu::Volume hostVolume_ = take(cpu::Volume::create(head_.view()));
     cpu::Mesh hostMesh_ = take(cpu::Mesh::create(ellipsoid_.view()));
     cpu::Detector hostExact_ = take(cpu::Detector::create());
-    cpu::Detector hostConservative_ = take(cpu::Detector::create({.projection = Projection::Conservative}));
+    cpu::Detector hostCertified_ = take(cpu::Detector::create({.projection = Projection::Certified}));
     std::vector<BlockingDetector> detectors_;
     std::vector<ResultRing> rings_;
     std::optional<Volume> volume_;

@@ -379,7 +379,7 @@ TEST_F(RenderCutTest, Refusals) {
         EXPECT_EQ(made.error().code, ErrorCode::InvalidArgument);
         EXPECT_THAT(made.error().text, HasSubstr(text));
     };
-    const std::vector<ClipPlane> planes(kMostClipPlanes + 1, {{1, 0, 0}, 0});
+    const std::vector<ClipPlane> planes(kMaxClipPlanes + 1, {{1, 0, 0}, 0});
     const ClipPlane none{{0, 0, 0}, 1};
     const ClipPlane endless{{1, 0, 0}, std::nan("")};
     const SceneMesh noMesh{};

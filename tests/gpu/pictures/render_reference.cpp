@@ -270,7 +270,7 @@ class Caster {
 
     [[nodiscard]] Vec3 vertex(std::size_t corner) const {
         const std::size_t at = std::size_t{3} * scene_.mesh->indices[corner];
-        const std::vector<float>& p = scene_.mesh->positions;
+        const std::vector<double>& p = scene_.mesh->positions;
         return transformPoint(scene_.world_from_object, {p[at], p[at + 1], p[at + 2]});
     }
 

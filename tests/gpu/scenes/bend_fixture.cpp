@@ -4,9 +4,9 @@
 #include "core/geometry/clusters.h"
 #include "core/method/method_table.h"
 #include "cpu/scenes/random_scene.h"
-#include "gpu/barriers.h"
-#include "gpu/mesh_layout.h"
+#include "device/scene/mesh_layout.h"
 #include "support/scenes.h"
+#include "vulkan/barriers.h"
 
 #include <algorithm>
 #include <bit>
@@ -25,7 +25,7 @@ constexpr Outputs kAll{.triangles = true, .contacts = true, .bounds = true, .lab
 /// may be can use up the rounds of loops that llvmpipe lets all of them have (docs/facts.md). That pair is undecided
 /// then.
 bool mayBeCut(const DetectorDesc& desc, const BatchAnswer& answer) {
-    return desc.projection == Projection::Conservative && !desc.stopAtFirst &&
+    return desc.projection == Projection::Certified && !desc.stopAtFirst &&
            std::ranges::any_of(answer.pairs,
                                [](const PairAnswer& pair) { return pair.exactness == Exactness::LowerBound; });
 }
@@ -38,12 +38,12 @@ std::vector<bool> hitsOf(const BatchAnswer& answer) {
     return hits;
 }
 
-std::vector<std::byte> spread(std::span<const float> positions, const Spacing& spacing) {
+std::vector<std::byte> spread(std::span<const double> positions, const Spacing& spacing) {
     const std::size_t vertices = positions.size() / 3;
     std::vector<float> out((spacing.offset + spacing.stride * (vertices - 1)) / sizeof(float) + 3,
                            std::numeric_limits<float>::quiet_NaN());
     for (std::size_t at = 0; at < positions.size(); ++at) {
-        out[(spacing.offset + spacing.stride * (at / 3)) / sizeof(float) + at % 3] = positions[at];
+        out[(spacing.offset + spacing.stride * (at / 3)) / sizeof(float) + at % 3] = static_cast<float>(positions[at]);
     }
     const auto bytes = std::as_bytes(std::span(out));
     return {bytes.begin(), bytes.end()};
@@ -92,7 +92,7 @@ std::vector<BendFixture::Way> BendFixture::allWays() const {
             continue;
         }
         for (const Projection projection :
-             {Projection::View, Projection::TwoView, Projection::DominantAxis, Projection::Conservative}) {
+             {Projection::View, Projection::TwoView, Projection::DominantAxis, Projection::Certified}) {
             if (answers(method.method, projection)) {
                 descs.push_back(
                     {.method = method.method, .projection = projection, .filter = defaultFilter(method.method)});
@@ -100,7 +100,7 @@ std::vector<BendFixture::Way> BendFixture::allWays() const {
             }
         }
     }
-    descs.push_back({.method = CountingMethod::Compute, .projection = Projection::Conservative, .stopAtFirst = true});
+    descs.push_back({.method = CountingMethod::Compute, .projection = Projection::Certified, .stopAtFirst = true});
     std::vector<Way> ways;
     for (const DetectorDesc& desc : descs) {
         ways.push_back({take(Detector::create(context(), desc)), {}});
@@ -157,7 +157,7 @@ void BendFixture::expectFresh(std::vector<Way>& ways, const MeshData& shape, std
     }
 }
 
-VkBuffer BendFixture::written(VkCommandBuffer commands, std::span<const float> positions, const Spacing& spacing,
+VkBuffer BendFixture::written(VkCommandBuffer commands, std::span<const double> positions, const Spacing& spacing,
                               VkBufferUsageFlags usage) {
     const RawVulkan::HostBuffer out =
         raw().makeBuffer(spread(positions, spacing).size(), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
@@ -165,7 +165,7 @@ VkBuffer BendFixture::written(VkCommandBuffer commands, std::span<const float> p
     return out.buffer;
 }
 
-void BendFixture::write(VkCommandBuffer commands, VkBuffer buffer, std::span<const float> positions,
+void BendFixture::write(VkCommandBuffer commands, VkBuffer buffer, std::span<const double> positions,
                         const Spacing& spacing) {
     const std::vector<std::byte> bytes = spread(positions, spacing);
     const VkBuffer source =
@@ -187,9 +187,10 @@ void BendFixture::expectBoxes(const Mesh& mesh, const MeshData& shape) {
     const std::vector<std::uint32_t> words = wordsOf(mesh.impl().buffer);
     const std::size_t first = mesh.impl().clusterWord.value();
     const std::size_t triangles = shape.indices.size() / 3;
+    const std::vector<float> floats = floatsOf(shape.positions);
     MeshClusters clusters;
     clusters.triangles.assign(words.end() - static_cast<std::ptrdiff_t>(triangles), words.end());
-    const std::vector<RunBox> runs = runBoxes(shape.view(), clusters);
+    const std::vector<RunBox> runs = runBoxes({floats, shape.indices}, clusters);
     const std::size_t count = (triangles + kClusterTriangles - 1) / kClusterTriangles;
     ASSERT_EQ(words.size() - first, 6 * (count + runs.size()) + triangles);
     const auto expectBox = [&](std::size_t number, const RunBox& box) {

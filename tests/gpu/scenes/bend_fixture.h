@@ -2,8 +2,8 @@
 #pragma once
 
 #include "cpu/scenes/bent_meshes.h"
-#include "gpu/context_impl.h"
 #include "raw_fixture.h"
+#include "vulkan/context_impl.h"
 
 #include <deque>
 
@@ -38,12 +38,12 @@ class BendFixture : public RawGpuTest {
     /// A mesh made of a shape answers by each way as the results of number `which` do. `clusters`: it has some.
     void expectFresh(std::vector<Way>& ways, const MeshData& shape, std::size_t which, bool clusters);
 
-    /// A buffer that a command of the test's own has filled with vertices; whoever reads it needs a barrier. What is
+    /// A buffer that a command of the test's own has filled with vertices; a reader needs a barrier. What is
     /// between them is NaN.
-    VkBuffer written(VkCommandBuffer commands, std::span<const float> positions, const Spacing& spacing,
+    VkBuffer written(VkCommandBuffer commands, std::span<const double> positions, const Spacing& spacing,
                      VkBufferUsageFlags usage);
-    /// Fills it anew. Earlier readers are waited for.
-    void write(VkCommandBuffer commands, VkBuffer buffer, std::span<const float> positions, const Spacing& spacing);
+    /// Fills it again. Earlier readers are waited for.
+    void write(VkCommandBuffer commands, VkBuffer buffer, std::span<const double> positions, const Spacing& spacing);
     /// A host's copy of a buffer on the device.
     std::vector<std::uint32_t> wordsOf(const Buffer& buffer);
     /// The boxes of clusters and runs that a mesh has on the device are those of its shape.

@@ -3,13 +3,13 @@
 #include "bend_fixture.h"
 
 #include "cpu/scenes/random_scene.h"
-#include "gpu/barriers.h"
-#include "gpu/pipeline.h"
-#include "gpu/scene_impl.h"
-#include "shared.h"
+#include "device/scene/scene_impl.h"
+#include "exact/shared.h"
 #include "support/scenes.h"
 #include "voxtact/samples.h"
 #include "voxtact_shaders/edit_comp.h"
+#include "vulkan/barriers.h"
+#include "vulkan/pipeline.h"
 
 #include <gmock/gmock.h>
 
@@ -107,9 +107,9 @@ TEST_F(MeshBendTest, BoxesAreTheHostsForAllKindsOfFloats) {
         // Numbers that differ (0 kinds), so that each run has a part in the box of its cluster, and odd ones.
         for (const std::size_t kinds : {std::size_t{0}, std::size_t{1}, std::size_t{5}, std::size(kOdd)}) {
             const double middle = uniform(random, -1, 1);
-            for (float& coordinate : shape.positions) {
-                coordinate =
-                    kinds > 0 ? kOdd[below(random, kinds)] : static_cast<float>(middle + uniform(random, -0.5, 0.5));
+            for (double& coordinate : shape.positions) {
+                coordinate = static_cast<double>(kinds > 0 ? kOdd[below(random, kinds)]
+                                                           : static_cast<float>(middle + uniform(random, -0.5, 0.5)));
             }
             const VkCommandBuffer commands = raw().begin();
             take(mesh.cmdUpdate(commands, shape.positions));
@@ -123,12 +123,12 @@ TEST_F(MeshBendTest, BoxesAreTheHostsForAllKindsOfFloats) {
 TEST_F(MeshBendTest, AMeshOfFiftyThousandVertices) {
     std::vector<Way> ways;
     ways.push_back({take(Detector::create(context(), {.method = CountingMethod::Compute,
-                                                      .projection = Projection::Conservative,
+                                                      .projection = Projection::Certified,
                                                       .outputs = {.bounds = true}})),
                     {}});
     MeshData shape = take(makeEllipsoid(99996));
     EXPECT_EQ(take(checkMesh(shape.view())).vertices, 50000U);
-    for (float& coordinate : shape.positions) {
+    for (double& coordinate : shape.positions) {
         coordinate *= 0.2F;
     }
     poses_ = {translation(transformPoint(worldFromTexture(image_.grid), {0.5, 0.5, 0.5}))};
@@ -158,14 +158,14 @@ TEST_F(MeshBendTest, WithTwoFramesInFlight) {
     std::mt19937_64 random(seed);
     const MeshData ellipsoid = [] {
         MeshData data = take(makeEllipsoid(2000));
-        for (float& coordinate : data.positions) {
+        for (double& coordinate : data.positions) {
             coordinate *= 0.2F;
         }
         return data;
     }();
     poses_ = {translation(transformPoint(worldFromTexture(image_.grid), {0.6, 0.5, 0.4}))};
     const Detector certified =
-        take(Detector::create(context(), {.method = CountingMethod::Compute, .projection = Projection::Conservative}));
+        take(Detector::create(context(), {.method = CountingMethod::Compute, .projection = Projection::Certified}));
     BlockingDetector judge = detector(certified.desc());
     ResultRing ring = take(ResultRing::create(context(), 2, {.maxPairs = 1}));
     Mesh mesh = editable(ellipsoid, true);
@@ -260,7 +260,7 @@ TEST_F(MeshBendTest, FromABufferThatAShaderHasWritten) {
     const MeshData flat = makeFlat(0.1, 0.9, 0.1, 0.9, 0.1);
     constexpr VkBufferUsageFlags kUsage =
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
-    const VkBuffer vertices = raw().makeBuffer(std::span<const float>(flat.positions), kUsage).buffer;
+    const VkBuffer vertices = raw().makeBuffer(std::span<const float>(floatsOf(flat.positions)), kUsage).buffer;
     constexpr std::uint32_t kRow[] = {2, 3, 2, 3, 2, 3, 2, 3};
     const VkBuffer rows =
         raw().makeBuffer(std::span<const std::uint32_t>(kRow), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT).buffer;
@@ -277,7 +277,7 @@ TEST_F(MeshBendTest, FromABufferThatAShaderHasWritten) {
     Mesh theirs = take(Mesh::wrap(context(), wrapped));
     Mesh ours = editable(flat, true);
     const Detector certified =
-        take(Detector::create(context(), {.method = CountingMethod::Compute, .projection = Projection::Conservative}));
+        take(Detector::create(context(), {.method = CountingMethod::Compute, .projection = Projection::Certified}));
     const Detector query = take(Detector::create(context(), {.method = CountingMethod::Query}));
     const Mat4 pose = identity();
     const BatchItem items[] = {{&ours, &volume, &*function_, {&pose, 1}}, {&theirs, &volume, &*function_, {&pose, 1}}};
@@ -307,7 +307,7 @@ TEST_F(MeshBendTest, FromABufferThatAShaderHasWritten) {
     EXPECT_EQ(unpack(take(results[1].read())[0]).count, 16U * 16U);
 }
 
-/// Vertices that are no numbers are the caller's mistake; what they do not belong to is answered all the same.
+/// Vertices that are no numbers are the caller's mistake; what they do not belong to is answered nevertheless.
 TEST_F(MeshBendTest, NumbersThatAreNoneSpoilTheirTrianglesAlone) {
     constexpr float kOdd[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
                               -std::numeric_limits<float>::infinity(), std::bit_cast<float>(0xffc00001U)};
@@ -323,7 +323,7 @@ TEST_F(MeshBendTest, NumbersThatAreNoneSpoilTheirTrianglesAlone) {
     std::vector<Way> ways = allWays();
     const Mesh fresh = take(Mesh::upload(context(), queue(), shape.view(), {.clusters = true}));
     Mesh mesh = editable(shape, true);
-    std::vector<float> spoilt = shape.positions;
+    std::vector<double> spoilt = shape.positions;
     std::vector<bool> spoilsTriangle(300);
     for (int i = 0; i < 12; ++i) {
         const std::size_t at = below(random, spoilt.size());
@@ -353,7 +353,7 @@ TEST_F(MeshBendTest, NumbersThatAreNoneSpoilTheirTrianglesAlone) {
 TEST_F(MeshBendTest, AnUploadBringsBackTheShapeOfItsCreation) {
     const MeshData shape = take(makeEllipsoid(500));
     MeshData other = shape;
-    for (float& coordinate : other.positions) {
+    for (double& coordinate : other.positions) {
         coordinate = 2 * coordinate + 1;
     }
     Mesh mesh = take(Mesh::create(context(), shape.view(), {.clusters = true, .editable = true}));
@@ -377,7 +377,7 @@ TEST_F(MeshBendTest, WhatIsRefusedLeavesItAsItWas) {
     EXPECT_THAT(text(mesh.cmdUpdate(commands, shape.positions)), HasSubstr("the mesh was never uploaded"));
     EXPECT_THAT(text(mesh.cmdCopy(commands, mesh.impl().vertices, 0)), HasSubstr("the mesh was never uploaded"));
     take(mesh.cmdUpload(commands));
-    std::vector<float> positions = shape.positions;
+    std::vector<double> positions = shape.positions;
     positions[0] = 7;
     EXPECT_THAT(text(mesh.cmdUpdate(VK_NULL_HANDLE, positions)), HasSubstr("command buffer"));
     positions[7] = std::numeric_limits<float>::quiet_NaN();

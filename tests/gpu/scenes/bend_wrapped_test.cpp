@@ -50,10 +50,10 @@ class WrappedBendTest : public BendFixture {
         std::iota(out.indices.begin(), out.indices.end(), 0U);
         return out;
     }
-    /// A conservative detection that counts its work.
+    /// A certified detection that counts its work.
     CertifiedCounters workOn(const Mesh& mesh) {
         BlockingDetector counting =
-            detector({.method = CountingMethod::Compute, .projection = Projection::Conservative, .counters = true});
+            detector({.method = CountingMethod::Compute, .projection = Projection::Certified, .counters = true});
         const BatchItem asked = item(mesh);
         return take(counting.detect({{&asked, 1}, {}, 0.5})).counters.value();
     }
@@ -114,10 +114,10 @@ TEST_F(WrappedBendTest, AnswersAreThoseOfAMeshMadeAfresh) {
     EXPECT_GT(hits_, rounds) << "hardly anything touched";
 }
 
-/// Without clusters all would be looked at; with a shape, what is near each other is together.
+/// Without clusters all would be examined; with a shape, what is near each other is together.
 TEST_F(WrappedBendTest, WhatCannotTouchIsSkipped) {
     MeshData shape = take(makeEllipsoid(4000));
-    for (float& coordinate : shape.positions) {
+    for (double& coordinate : shape.positions) {
         coordinate *= 0.3F;
     }
     // Triangles in an order that says nothing of where they are.
@@ -149,7 +149,7 @@ TEST_F(WrappedBendTest, WhatCannotTouchIsSkipped) {
         EXPECT_TRUE(shaped ? kept == few : kept > 2 * few) << kept << ", " << few;
         // Out of reach, nothing is kept in any order.
         MeshData away = shape;
-        for (float& coordinate : away.positions) {
+        for (double& coordinate : away.positions) {
             coordinate += 200;
         }
         const VkCommandBuffer more = raw().begin();

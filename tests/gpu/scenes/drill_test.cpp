@@ -6,6 +6,7 @@
 
 #include "oracle/certified_oracle.h"
 #include "raw_vulkan.h"
+#include "support/host_meters.h"
 #include "support/scenes.h"
 #include "voxtact/cpu.h"
 #include "voxtact/samples.h"
@@ -78,10 +79,10 @@ TEST_F(DrillTest, TheHitIsGoneWhenTheOracleSaysSo) {
     const BatchItem item{&mesh, &volume, &function, {&pose, 1}};
     const cpu::BatchItem hostItem{&hostMesh, &hostVolume, &hostFunction, {&pose, 1}};
 
-    BlockingDetector device = detector({.method = CountingMethod::Compute, .projection = Projection::Conservative});
+    BlockingDetector device = detector({.method = CountingMethod::Compute, .projection = Projection::Certified});
     BlockingDetector samples = detector({.method = CountingMethod::Atomic, .filter = Filter::Exact});
     cpu::Detector host =
-        take(cpu::Detector::create({.projection = Projection::Conservative, .outputs = {.contacts = true}}));
+        take(cpu::Detector::create({.projection = Projection::Certified, .outputs = {.contacts = true}}));
 
     std::size_t steps = 0;
     for (bool touching = true; touching; ++steps) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Volumes that are edited in place, against uploads of the edited host data.
-#include "gpu/scene_impl.h"
-#include "gpu/texels.h"
+#include "device/scene/scene_impl.h"
 #include "interception.h"
 #include "raw_fixture.h"
 #include "support/scenes.h"
 #include "support/special.h"
 #include "voxtact/cpu.h"
+#include "vulkan/texels.h"
 
 #include <gmock/gmock.h>
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Transfer functions that change between the commands of one command buffer.
-#include "core/transfer/table_extremes.h"
-#include "gpu/scene_impl.h"
+#include "device/scene/scene_impl.h"
 #include "gpu_fixture.h"
 #include "raw_vulkan.h"
 #include "support/scenes.h"
 
 #include <gmock/gmock.h>
+
+#include <limits>
 
 namespace voxtact::test {
 namespace {
@@ -17,34 +18,27 @@ constexpr ControlPoint kThousandRamp[] = {{0, 0}, {1000, 1}};
 
 class TableUpdateTest : public GpuTest {
   protected:
-    /// The extremes that the device has of a function.
-    static std::vector<float> extremesOf(RawVulkan& raw, const TransferFunction& function) {
-        const Buffer& extremes = function.impl().extremes;
-        const std::vector<std::byte> bytes = raw.readBuffer(extremes.get(), extremes.size);
-        std::vector<float> out(bytes.size() / sizeof(float));
-        std::memcpy(out.data(), bytes.data(), bytes.size());
-        return out;
-    }
-    static void expectExtremes(RawVulkan& raw, const TransferFunction& function, const TransferFunctionDesc& desc) {
-        const TableExtremes expected(take(sampleTable(desc)));
-        const std::vector<float> found = extremesOf(raw, function);
-        EXPECT_TRUE(std::ranges::equal(found, expected.values()));
+    static void expectTexels(RawVulkan& raw, const TransferFunction& function, const TransferFunctionDesc& desc) {
+        const Buffer& texels = function.impl().texels;
+        const std::vector<std::byte> bytes = raw.readBuffer(texels.get(), texels.size);
+        std::vector<float> found(bytes.size() / sizeof(float));
+        std::memcpy(found.data(), bytes.data(), bytes.size());
+        EXPECT_EQ(found, take(sampleTable(desc)));
     }
 };
 
-TEST_F(TableUpdateTest, TheExtremesFollow) {
+TEST_F(TableUpdateTest, TheTexelsFollow) {
     RawVulkan raw(gpu().device);
-    // The largest table needs several vkCmdUpdateBuffer.
     for (const std::uint32_t size : {2U, 3U, 256U, 4000U}) {
         TransferFunction function =
-            take(TransferFunction::upload(context(), queue(), {byteRamp(), kBytes, size}, "extremes"));
-        expectExtremes(raw, function, {byteRamp(), kBytes, size});
+            take(TransferFunction::upload(context(), queue(), {byteRamp(), kBytes, size}, "texels"));
+        expectTexels(raw, function, {byteRamp(), kBytes, size});
         const TransferFunctionDesc next{kThousandRamp, {-500, 1500}, size};
         const VkCommandBuffer commands = raw.begin();
         take(function.cmdUpdate(commands, {kAllOpaque, kBytes, size}));
         take(function.cmdUpdate(commands, next));
         raw.submitAndWait(commands);
-        expectExtremes(raw, function, next);
+        expectTexels(raw, function, next);
         EXPECT_EQ(function.domain().lo, -500);
         EXPECT_EQ(function.tableSize(), size);
     }
@@ -74,7 +68,7 @@ TEST_F(TableUpdateTest, AnUploadTakesItBack) {
     take(results.cmdReadBack(commands));
     raw.submitAndWait(commands);
     EXPECT_TRUE(unpack(take(results.read())[0]).hit);
-    expectExtremes(raw, function, first);
+    expectTexels(raw, function, first);
 }
 
 TEST_F(TableUpdateTest, TakesEffectInCommandBufferOrder) {
@@ -128,20 +122,24 @@ TEST_F(TableUpdateTest, WrappedTables) {
     RawVulkan raw(gpu().device);
     const std::vector<float> table = take(sampleTable({byteRamp(), kBytes, 64}));
     WrappedTransferFunction wrapped;
+    wrapped.domain = kBytes;
     wrapped.view = raw.makeImage(VK_IMAGE_TYPE_1D, VK_FORMAT_R32_SFLOAT, {64, 1, 1}, std::as_bytes(std::span(table)),
                                  wrapped.layout);
     TransferFunction without = take(TransferFunction::wrap(context(), wrapped));
-    EXPECT_FALSE(without.impl().hasExtremes());
+    EXPECT_TRUE(without.impl().known.points.empty());
     wrapped.domain = {-1e308, 1e308};
     EXPECT_THAT(TransferFunction::wrap(context(), wrapped).error().text,
                 HasSubstr("WrappedTransferFunction::domain -1e+308:1e+308 is too wide"));
     wrapped.domain = kBytes;
+    std::vector<float> damaged = table;
+    damaged[3] = std::numeric_limits<float>::quiet_NaN();
+    wrapped.table = damaged;
+    EXPECT_THAT(TransferFunction::wrap(context(), wrapped).error().text, HasSubstr("not from 0 to 1"));
     wrapped.table = table;
     TransferFunction with = take(TransferFunction::wrap(context(), wrapped));
-    ASSERT_TRUE(with.impl().hasExtremes());
-    const auto* first = static_cast<const float*>(with.impl().extremes.mapped);
-    const TableExtremes expected(table);
-    EXPECT_TRUE(std::ranges::equal(expected.values(), std::span(first, expected.values().size())));
+    ASSERT_EQ(with.impl().known.points.size(), 64U);
+    EXPECT_EQ(with.impl().known.points[1].value, 255.0 / 64 * 1.5);
+    EXPECT_EQ(with.impl().known.points[1].opacity, static_cast<double>(table[1]));
 
     const VkCommandBuffer commands = raw.begin();
     EXPECT_THAT(with.cmdUpdate(commands, {byteRamp(), kBytes, 64}).error().text, HasSubstr("wrapped"));
@@ -158,7 +156,7 @@ TEST_F(TableUpdateTest, BadInputIsRefusedAndChangesNothing) {
     EXPECT_THAT(function.cmdUpdate(commands, {byteRamp(), {9, 9}}).error().text, HasSubstr("domain 9:9"));
     raw.submitAndWait(commands);
     EXPECT_EQ(function.domain().hi, 255);
-    expectExtremes(raw, function, {byteRamp(), kBytes});
+    expectTexels(raw, function, {byteRamp(), kBytes});
 }
 
 } // namespace

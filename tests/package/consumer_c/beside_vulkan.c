@@ -44,13 +44,13 @@ static VkDevice make_device(VkPhysicalDevice physical_device, vxt_features* feat
 
 static int print_default_method(VkInstance instance, VkPhysicalDevice physical_device, VkDevice device,
                                 vxt_features* features) {
-    vxt_context_desc desc = vxt_context_desc_init();
-    desc.get_instance_proc_addr = vkGetInstanceProcAddr;
-    desc.instance = instance;
-    desc.physical_device = physical_device;
-    desc.device = device;
-    desc.api_version = VK_API_VERSION_1_3;
-    desc.enabled_features = vxt_features_chain(features);
+    const vxt_context_desc desc = {.struct_size = sizeof desc,
+                                   .get_instance_proc_addr = vkGetInstanceProcAddr,
+                                   .instance = instance,
+                                   .physical_device = physical_device,
+                                   .device = device,
+                                   .api_version = VK_API_VERSION_1_3,
+                                   .enabled_features = vxt_features_chain(features)};
     vxt_context* context;
     if (vxt_context_create(&desc, &context) != VXT_OK) {
         puts(vxt_last_error(NULL));

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "voxtact/error.h"
+
+#include <cstdint>
+
+/// Bounds of a measured quantity.
+namespace voxtact {
+
+/// The quantity is at least `lower` and at most `upper`, all rounding included.
+struct Bounds {
+    double lower = 0; ///< in the unit of the question: mm, mm^2 or mm^3
+    double upper = 0; ///< infinite where no bound is known, or nothing is opaque
+};
+
+/// Why a search ended.
+enum class StopReason : std::uint32_t {
+    Closed,   ///< the bounds are within the tolerance, or both infinite
+    Beyond,   ///< the distance is not less than the maximum: `lower` is the maximum, `upper` infinite
+    Rounding, ///< rounding decides the rest
+    Budget,   ///< the iteration limit was reached
+};
+/// Returns "closed", "beyond", "rounding" or "budget", with static lifetime.
+[[nodiscard]] VOXTACT_API const char* toString(StopReason reason) noexcept;
+
+} // namespace voxtact

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "bench/engines/fcl_peer.h"
+#include "bench/measure/machine.h"
+#include "core/base/try.h"
+#include "voxtact/cpu.h"
+#include "voxtact/detector.h"
+
+#include <concepts>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace voxtact::lab {
+
+/// Puts what was made, if it was, where it belongs: in a Part, or an optional one.
+template <class Part, class Place> [[nodiscard]] Result<void> put(Result<Part> made, Place& place) {
+    VOXTACT_TRY(made);
+    if constexpr (std::same_as<Place, Part>) {
+        place = std::move(*made);
+    } else {
+        place.emplace(std::move(*made));
+    }
+    return {};
+}
+
+/// How the data that options name get here: a path, or builtin:NAME.
+struct Loaders {
+    std::function<Result<VolumeData>(const std::string& source)> volume;
+    std::function<Result<MeshData>(const std::string& source)> mesh;
+};
+
+/// A volume and how it is seen: in host memory, and what the engines have made
+/// of it.
+struct VolumePart {
+    std::string name; ///< a path, or builtin:NAME
+    VolumeData data;
+    std::vector<ControlPoint> points;
+    ValueRange domain;
+    std::uint32_t tableSize = kDefaultTableSize;
+    double threshold = kDefaultThreshold;
+    LabelData labels{}; ///< may be empty
+    std::optional<cpu::Volume> host{};
+    std::optional<cpu::TransferFunction> hostFunction{};
+    std::optional<Volume> device{};
+    std::optional<TransferFunction> deviceFunction{};
+    std::optional<LabelMap> deviceLabels{};
+    std::shared_ptr<const FclVolume> fcl{};
+
+    [[nodiscard]] TransferFunctionDesc transferFunction() const { return {points, domain, tableSize}; }
+};
+
+/// A mesh, the same.
+struct MeshPart {
+    std::string name;
+    MeshData data;
+    std::optional<cpu::Mesh> host{};
+    std::optional<Mesh> device{};
+
+    [[nodiscard]] std::uint32_t triangles() const { return static_cast<std::uint32_t>(data.indices.size() / 3); }
+};
+
+/// What is measured: a mesh at some poses against a volume, and the camera of
+/// the projections that have one. Copies share the parts. What is on a device
+/// must end before the device: a session outlives the scenes made ready for it,
+/// or a DeviceStay ends before it.
+struct Scene {
+    std::shared_ptr<VolumePart> volume;
+    std::shared_ptr<MeshPart> mesh;
+    std::vector<Mat4> poses;
+    std::vector<std::uint32_t> poseNumbers; ///< of each pose, in the whole list
+    std::string posesFrom;                  ///< "random, seed 1", or a path
+    View view;
+
+    /// `count` of the poses, spread evenly.
+    [[nodiscard]] Scene withPoses(std::uint32_t count) const;
+};
+
+/// Of a scene that outlives the session it is made ready for: when the stay ends, by an exception too, nothing of the
+/// scene is on the device any more.
+class DeviceStay {
+  public:
+    explicit DeviceStay(const Scene& scene) noexcept : volume_(*scene.volume), mesh_(*scene.mesh) {}
+    DeviceStay(const DeviceStay&) = delete;
+    DeviceStay& operator=(const DeviceStay&) = delete;
+    ~DeviceStay();
+
+  private:
+    VolumePart& volume_;
+    MeshPart& mesh_;
+};
+
+/// `count` numbers below `total`, spread evenly; all of them when there are no more.
+[[nodiscard]] std::vector<std::uint32_t> spreadEvenly(std::uint32_t count, std::uint32_t total);
+
+/// As --opacity takes them: "40:0,80:1".
+[[nodiscard]] std::string opacityText(std::span<const ControlPoint> points);
+
+/// Makes what the host engine needs, once.
+[[nodiscard]] Result<void> makeHost(VolumePart& volume);
+/// Uploads what the methods of the device need, labels too where there are any.
+[[nodiscard]] Result<void> upload(const device::Session& session, const VolumeOptions& options, VolumePart& volume);
+/// Both. LimitExceeded where the volume is beyond what the device can do,
+/// InvalidArgument (--tf-size) where the table is.
+[[nodiscard]] Result<void> makeReady(const device::Session& session, const VolumeOptions& options, VolumePart& volume);
+/// For the host engine, and for the device unless `session` is null.
+[[nodiscard]] Result<void> makeReady(const device::Session* session, MeshPart& mesh);
+/// A whole scene, whose viewport is checked as below.
+[[nodiscard]] Result<void> makeReady(const device::Session& session, const Scene& scene,
+                                     const VolumeOptions& options = {});
+
+/// Refuses a viewport beyond what the device or the host can do.
+[[nodiscard]] Result<void> checkViewport(const device::Session& session, const VkExtent2D& size);
+
+} // namespace voxtact::lab

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cli/motion/motion_run.h"
+#include "core/base/text_stream.h"
+#include "io/text/table.h"
+#include "voxtact/io.h"
+
+#include <memory>
+#include <optional>
+#include <span>
+
+namespace voxtact::app {
+
+/// What `voxtact motion` writes: rows on standard output as they come, a file when all is done and well. Thread-safety:
+/// none; one thread at a time.
+class MotionOutput {
+  public:
+    /// Opens the file. Both must outlive it.
+    [[nodiscard]] static Result<std::unique_ptr<MotionOutput>> create(const MotionOptions& options,
+                                                                      const MotionInputs& inputs);
+
+    /// The next rows.
+    [[nodiscard]] Result<void> add(std::span<const MotionRow> rows);
+    [[nodiscard]] std::uint64_t rows() const noexcept { return rows_; }
+    [[nodiscard]] const MotionEnds& ends() const noexcept { return ends_; }
+
+    /// Completes what has been written; the file gets its name. `wallMilliseconds` is for --timing.
+    [[nodiscard]] Result<void> finish(double wallMilliseconds);
+    /// Completes standard output with the rows that there are; no file gets its name.
+    [[nodiscard]] Result<void> breakOff();
+    /// After an error: ends what standard output has of a JSON document, so that it can be read.
+    [[nodiscard]] Result<void> fail();
+
+  private:
+    MotionOutput(const MotionOptions& options, const MotionInputs& inputs, std::optional<io::OutputFile> file);
+    [[nodiscard]] Result<void> pass();
+
+    const MotionOptions& options_;
+    const MotionInputs& inputs_;
+    std::optional<io::OutputFile> file_;
+    TextStream text_; ///< on its way to standard output
+    io::TableWriter writer_;
+    io::NamedCells facts_; ///< JSON members before the rows
+    std::uint64_t rows_ = 0;
+    MotionEnds ends_;
+};
+
+} // namespace voxtact::app

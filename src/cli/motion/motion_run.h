@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cli/motion/motion_engine.h"
+#include "cli/motion/motion_table.h"
+#include "cli/options/inputs.h"
+#include "cli/options/output_paths.h"
+#include "cli/options/shard.h"
+#include "cli/output/progress.h"
+#include "core/batch/batch_pace.h"
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+/// What the parts of `voxtact motion` share.
+namespace voxtact::app {
+
+struct MotionOptions {
+    std::vector<std::string> volumes;
+    MeshOptions meshes;
+    TransferFunctionOptions transferFunction;
+    ViewOptions view; ///< its poses
+    LabelOptions labels;
+    std::string interpolation = "screw";
+    double resolution = kDefaultMotionResolution;
+    std::uint32_t threads = 0; ///< 0: one a processor
+    bool summary = false;
+    bool timing = false;
+    bool progress = true;
+    OutputOptions output;
+    Shard shard;
+};
+
+struct MotionInputs {
+    std::vector<ControlPoint> points;
+    std::vector<Mat4> poses;
+    std::optional<LabelData> labels;
+    std::map<std::int32_t, std::string> labelNames;
+};
+
+/// Checks the segments of some meshes and volumes.
+class SegmentChecker {
+  public:
+    /// All must outlive it.
+    SegmentChecker(const MotionOptions& options, const MotionInputs& inputs, MotionEngine& engine)
+        : options_(options), inputs_(inputs), engine_(engine) {}
+
+    /// Reads a volume with its transfer function; what is checked from then on is about it.
+    [[nodiscard]] Result<void> setVolume(std::uint32_t number);
+
+    /// The rows of the segments between poses of which the first has the number `firstPose`, some at a time; fewer
+    /// where an interrupt comes, which ends what is under way, too. Refuses poses between which there is no rigid
+    /// motion before any row. Ends where `visit` fails.
+    [[nodiscard]] Result<void> check(std::uint32_t mesh, std::span<const Mat4> poses, std::uint64_t firstPose,
+                                     const std::function<Result<void>(std::span<const MotionRow>)>& visit);
+    /// That it took so far.
+    [[nodiscard]] double milliseconds() const noexcept { return milliseconds_; }
+
+  private:
+    /// More segments than are checked before their rows are written.
+    static constexpr std::uint32_t kMostAtOnce = 256;
+
+    /// Whether each segment is half a turn.
+    [[nodiscard]] Result<std::vector<bool>> checkRigid(std::span<const Mat4> poses, std::uint64_t firstPose) const;
+
+    const MotionOptions& options_;
+    const MotionInputs& inputs_;
+    MotionEngine& engine_;
+    std::uint32_t volume_ = 0; ///< its number
+    BatchPace pace_{kMostAtOnce, false};
+    double milliseconds_ = 0;
+};
+
+/// Counts answers, segments that are not decided to the resolution, and half turns.
+struct MotionEnds {
+    std::uint64_t segments = 0;
+    std::uint64_t touches = 0;
+    std::uint64_t undecided = 0;
+    std::uint64_t firstTouch = 0; ///< the first segment that touches
+    std::uint64_t grazing = 0;
+    std::uint64_t cut = 0;
+    std::uint64_t halfTurns = 0;
+    std::uint32_t firstHalfTurn = 0; ///< its segment
+
+    void add(std::span<const MotionRow> rows);
+    void addTo(std::vector<std::string>& notes) const;
+    /// The line of --summary.
+    [[nodiscard]] std::string summary() const;
+};
+
+} // namespace voxtact::app

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "io/text/table.h"
+#include "voxtact/data.h"
+#include "voxtact/motion.h"
+
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace voxtact::app {
+
+/// One segment of one mesh against one volume.
+struct MotionRow {
+    std::uint32_t mesh = 0; ///< numbers in their lists
+    std::uint32_t volume = 0;
+    SegmentMotion motion;
+    bool halfTurn = false; ///< within rounding, so that this alone decides which way round it goes
+};
+
+/// What the rows are about.
+struct MotionTable {
+    const std::vector<std::string>& meshes; ///< as they were given
+    const std::vector<std::string>& volumes;
+    const std::optional<LabelData>& labels;
+    const std::map<std::int32_t, std::string>& labelNames;
+    std::span<const MotionRow> rows;
+    const io::NamedCells& facts; ///< JSON members before the rows
+
+    /// It refers to all of these.
+    [[nodiscard]] io::Table table() const;
+};
+
+} // namespace voxtact::app

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "vulkan/own/vulkan_device.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace voxtact::app {
+
+/// The folder for what is worth keeping from run to run. Everything in it can be made again, so that nothing that goes
+/// wrong with it is an error: what cannot be read is not there, and what cannot be written is not kept.
+class CacheFolder {
+  public:
+    /// A cache that is off.
+    CacheFolder() = default;
+    /// `wanted` is a folder, "off", or empty: $XDG_CACHE_HOME/voxtact, else ~/.cache/voxtact, else off.
+    explicit CacheFolder(const std::string& wanted);
+
+    [[nodiscard]] bool on() const noexcept { return !path_.empty(); }
+    /// A whole file as write() wrote it; nothing for one that is damaged or somebody else's.
+    [[nodiscard]] std::optional<std::string> read(const std::string& name) const;
+    /// Makes the folder where it is missing, and replaces the file in one step. False when it could not.
+    bool write(const std::string& name, std::string_view content) const;
+
+  private:
+    std::filesystem::path path_;
+};
+
+/// What tells a device, its driver and this program from others, as part of a file's name.
+[[nodiscard]] std::string cacheKey(const device::PhysicalDevice& device);
+
+} // namespace voxtact::app

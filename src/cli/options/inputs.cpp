@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: MIT
+#include "cli/options/inputs.h"
+
+#include "cli/options/file_status.h"
+#include "cli/options/output_paths.h"
+#include "cli/output/standard_streams.h"
+#include "cli/output/text_for_messages.h"
+#include "core/base/refuse.h"
+#include "core/base/text.h"
+#include "core/base/try.h"
+#include "voxtact/io.h"
+#include "voxtact/samples.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <string_view>
+
+namespace voxtact::app {
+
+namespace {
+
+constexpr std::string_view kBuiltin = "builtin:";
+
+/// What a file holds is no fault of the arguments.
+Error fileFault(Error error) {
+    if (error.code == ErrorCode::InvalidArgument) {
+        error.code = ErrorCode::Format;
+    }
+    return error;
+}
+
+/// Of a builtin, whose name is an argument, or of a file.
+Error sourceFault(const char* option, const std::string& source, const Error& error) {
+    const bool isName = source.starts_with(kBuiltin) && error.code != ErrorCode::OutOfMemory;
+    return isName ? badArgument(std::string(option) + " " + source + ": " + error.text) : fileFault(error);
+}
+
+void printNotes(const std::string& source, const std::vector<std::string>& notes) {
+    for (const std::string& note : notes) {
+        const bool named = note.find(source) != std::string::npos;
+        printNoteOnce(named ? note : source + ": " + note);
+    }
+}
+
+/// Which image a source means: of a folder a series, of a file a frame.
+Result<io::VolumeReadOptions> imageChoice(const std::string& source, const NamedImage& image) {
+    io::VolumeReadOptions options;
+    std::error_code ignored;
+    if (std::filesystem::is_directory(image.path, ignored)) {
+        options.series = image.which;
+    } else if (!image.which.empty() || image.path != source) {
+        std::uint32_t frame = 0;
+        const char* const end = image.which.data() + image.which.size();
+        const auto [read, error] = std::from_chars(image.which.data(), end, frame);
+        if (error != std::errc() || read != end) {
+            return refuse(forMessage(source) +
+                          ": there is no such file, and what follows '#' is not the number of an "
+                          "image in " +
+                          forMessage(image.path.string()));
+        }
+        options.frame = frame;
+    }
+    return options;
+}
+
+Result<VolumeData> readImage(const std::string& source, const io::ReadProgress& progress) {
+    const NamedImage image = namedImage(source);
+    Result<io::VolumeReadOptions> options = imageChoice(source, image);
+    VOXTACT_TRY(options);
+    options->progress = progress;
+    return io::readVolume(image.path, *options);
+}
+
+} // namespace
+
+Result<VolumeData> loadVolume(const std::string& source, const io::ReadProgress& progress) {
+    const bool builtin = source.starts_with(kBuiltin);
+    Result<VolumeData> volume =
+        builtin ? makeBuiltinVolume(std::string_view(source).substr(kBuiltin.size())) : readImage(source, progress);
+    if (!volume.ok()) {
+        return sourceFault("--volume", source, volume.error());
+    }
+    printNotes(source, volume->notes);
+    return volume;
+}
+
+Result<void> checkVolumesAreThere(const std::vector<std::string>& sources) {
+    for (const std::string& source : sources) {
+        if (source.starts_with("builtin:")) {
+            continue;
+        }
+        const Result<std::optional<struct stat>> there = statusOf(namedImage(source).path);
+        VOXTACT_TRY(there);
+        if (!*there) {
+            return Error{ErrorCode::File, 0,
+                         "cannot read " + forMessage(namedImage(source).path.string()) +
+                             ": there is no such file or folder"};
+        }
+    }
+    return {};
+}
+
+Result<MeshData> loadMesh(const std::string& source, const MeshOptions& options) {
+    const bool builtin = source.starts_with(kBuiltin);
+    io::MeshReadOptions reading{.space = {}, .scale = options.scale};
+    if (!options.space.empty()) {
+        reading.space = options.space == "ras" ? io::MeshSpace::RAS : io::MeshSpace::LPS;
+    }
+    Result<MeshData> mesh =
+        builtin ? makeBuiltinMesh(std::string_view(source).substr(kBuiltin.size())) : io::readMesh(source, reading);
+    if (!mesh.ok()) {
+        return sourceFault("--mesh", source, mesh.error());
+    }
+    const Result<MeshFacts> facts = checkMesh(mesh->view());
+    if (!facts.ok()) {
+        return fileFault(facts.error());
+    }
+    if (facts->degenerate > 0) {
+        mesh->notes.push_back(std::to_string(facts->degenerate) + " of " + std::to_string(facts->triangles) +
+                              " triangles have no area: only the projection certified counts them");
+    }
+    if (builtin && options.scale != 1) {
+        mesh->notes.emplace_back("--mesh-scale is about mesh files: a builtin is in mm");
+    }
+    if (builtin && options.space == "ras") {
+        mesh->notes.emplace_back("--mesh-space is about mesh files: a builtin is in LPS");
+    }
+    printNotes(source, mesh->notes);
+    return mesh;
+}
+
+Result<std::vector<ControlPoint>> loadControlPoints(const TransferFunctionOptions& options) {
+    if (options.opacity) {
+        Result<std::vector<ControlPoint>> points = io::parseOpacity(*options.opacity);
+        if (points.ok() || points.error().code == ErrorCode::OutOfMemory) {
+            return points;
+        }
+        constexpr std::string_view kWhat = "opacity"; // begins what parseOpacity() says
+        return badArgument(options.opacityOption + points.error().text.substr(kWhat.size()));
+    }
+    if (options.path.empty()) {
+        return std::vector<ControlPoint>{};
+    }
+    Result<std::vector<ControlPoint>> points = io::readTransferFunction(options.path);
+    return points.ok() ? points : fileFault(points.error());
+}
+
+ValueRange tableDomain(const TransferFunctionOptions& options, ScalarType type, const ValueRange& data) {
+    if (options.domain) {
+        return *options.domain;
+    }
+    if (type == ScalarType::UInt8) {
+        return {0, 255};
+    }
+    if (data.lo < data.hi) {
+        return data;
+    }
+    // One value everywhere: it sits in the middle of a table that is as narrow as the numbers allow.
+    const double half = std::max(0.5, std::abs(data.lo) * 1e-6);
+    return {data.lo - half, data.lo + half};
+}
+
+std::uint32_t tableSizeFor(const TransferFunctionOptions& options, ScalarType type) {
+    constexpr std::uint32_t kFine = 4096; // every device has room for it
+    return options.tableSize.value_or(type == ScalarType::UInt8 ? kDefaultTableSize : kFine);
+}
+
+/// A domain that leaves out some of the data is the user's right, and easily a slip.
+ValueRange usedDomain(const TransferFunctionOptions& options, ScalarType type, const ValueRange& data,
+                      const std::string& source) {
+    const ValueRange domain = tableDomain(options, type, data);
+    if (data.lo < domain.lo || data.hi > domain.hi) {
+        printNote(source + ": its values " + number(data.lo) + ":" + number(data.hi) +
+                  " go beyond --tf-domain; they take the opacity at its ends");
+    }
+    return domain;
+}
+
+std::vector<ControlPoint> defaultRamp(const ValueRange& domain) {
+    return {{domain.lo, 0}, {domain.hi, 1}};
+}
+
+Result<Grid> gridOfVolume(const std::string& source) {
+    const Result<VolumeData> volume = loadVolume(source);
+    VOXTACT_TRY(volume);
+    return volume->grid;
+}
+
+Result<io::LabelFile> loadLabels(const std::filesystem::path& path, const GridSource& grid) {
+    if (std::error_code ignored; path.string().starts_with("builtin:") && !std::filesystem::exists(path, ignored)) {
+        return badArgument("--labels takes a file, and " + forMessage(path.string()) +
+                           " is none; voxtact make volume writes a builtin to one");
+    }
+    const NamedImage image = namedImage(path.string());
+    Result<io::VolumeReadOptions> options = imageChoice(path.string(), image);
+    if (options.ok() && io::holdsContours(image.path)) {
+        const Result<Grid> of = grid();
+        VOXTACT_TRY(of);
+        options->grid = *of;
+    }
+    Result<io::LabelFile> file =
+        options.ok() ? io::readLabels(image.path, *options) : Result<io::LabelFile>(options.error());
+    if (!file.ok()) {
+        return fileFault(file.error());
+    }
+    printNotes(path.string(), file->notes);
+    return file;
+}
+
+std::filesystem::path labelNamesPath(const std::filesystem::path& names, const std::filesystem::path& labels) {
+    if (!names.empty()) {
+        return names;
+    }
+    std::filesystem::path path = labels;
+    path.replace_extension(path.extension() == ".gz" ? "" : path.extension());
+    path += ".txt";
+    return path;
+}
+
+Result<std::map<std::int32_t, std::string>> loadLabelNames(const std::filesystem::path& names,
+                                                           const std::filesystem::path& labels) {
+    const std::filesystem::path path = labelNamesPath(names, labels);
+    std::error_code ignored;
+    if (names.empty() && !std::filesystem::is_regular_file(path, ignored)) {
+        return std::map<std::int32_t, std::string>{};
+    }
+    Result<std::vector<io::LabelName>> read = io::readLabelNames(path);
+    if (!read.ok() && names.empty()) {
+        printNoteOnce("labels have numbers only: " + read.error().text + " (--label-names names another file)");
+        return std::map<std::int32_t, std::string>{};
+    }
+    if (!read.ok()) {
+        return fileFault(read.error());
+    }
+    std::map<std::int32_t, std::string> byLabel;
+    for (io::LabelName& entry : *read) {
+        byLabel.emplace(entry.label, std::move(entry.name));
+    }
+    return byLabel;
+}
+
+Result<NamedLabels> loadNamedLabels(const std::filesystem::path& labels, const std::filesystem::path& names,
+                                    const GridSource& grid) {
+    Result<io::LabelFile> map = loadLabels(labels, grid);
+    VOXTACT_TRY(map);
+    Result<std::map<std::int32_t, std::string>> read = loadLabelNames(names, labels);
+    VOXTACT_TRY(read);
+    if (read->empty()) {
+        for (io::LabelName& entry : map->names) {
+            read->emplace(entry.label, std::move(entry.name));
+        }
+    }
+    return NamedLabels{std::move(map->labels), std::move(*read)};
+}
+
+Result<std::vector<Mat4>> readStandardPoses() {
+    std::vector<Mat4> poses;
+    std::ios::sync_with_stdio(false);
+    Result<io::PoseReader> reader = io::PoseReader::over(std::cin, "standard input");
+    const Result<bool> read =
+        reader.ok() ? reader->read(std::numeric_limits<std::size_t>::max(), poses) : Result<bool>(reader.error());
+    return read.ok() ? Result<std::vector<Mat4>>(std::move(poses)) : read.error();
+}
+
+Vec3 lpsFrom(const std::string& space, const Vec3& point) {
+    return space == "ras" ? Vec3{-point[0], -point[1], point[2]} : point;
+}
+
+Mat4 lpsFrom(const std::string& space, const Mat4& pose) {
+    Mat4 out = pose;
+    for (std::size_t i = 0; space == "ras" && i < out.size(); ++i) {
+        const bool turned = (i % 4 < 2) != (i / 4 < 2);
+        out[i] = turned ? -out[i] : out[i];
+    }
+    return out;
+}
+
+Result<std::vector<Mat4>> loadPoses(const std::filesystem::path& path, const std::string& space) {
+    if (path.empty()) {
+        return std::vector<Mat4>{identity()};
+    }
+    // Read as often as it has to be: it is all kept.
+    Result<std::vector<Mat4>> poses = path == "-" ? readStandardPoses() : io::readPoses(path);
+    if (!poses.ok()) {
+        return fileFault(poses.error());
+    }
+    for (Mat4& pose : *poses) {
+        pose = lpsFrom(space, pose);
+    }
+    return poses;
+}
+
+} // namespace voxtact::app

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cli/options/shared_options.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+/// What a command writes must be nothing that it reads: found out before any work is done.
+namespace voxtact::app {
+
+/// A path, and the option that names it: "--output".
+struct NamedPath {
+    std::string option;
+    std::filesystem::path path;
+};
+
+/// A file or folder of volumes as the user names it: its path, and behind a '#' which of its images is meant (a frame,
+/// the UID of a series). A path that is there as it stands has no such part.
+struct NamedImage {
+    std::filesystem::path path;
+    std::string which; ///< empty: the only one
+};
+[[nodiscard]] NamedImage namedImage(const std::string& source);
+
+/// Adds a file or folder that is read, without what is behind a '#'; builtins, standard input and empty paths are none.
+void addInput(std::vector<NamedPath>& inputs, const char* option, const std::filesystem::path& path);
+/// The files and folders that the options read.
+[[nodiscard]] std::vector<NamedPath> inputPaths(const std::vector<std::string>& volumes, const MeshOptions& meshes);
+[[nodiscard]] std::vector<NamedPath> inputPaths(const std::vector<std::string>& volumes, const MeshOptions& meshes,
+                                                const TransferFunctionOptions& transferFunction,
+                                                const ViewOptions& view, const LabelOptions& labels = {});
+
+/// Files that a header (.hdr, .nhdr, .mhd, .gltf) may mean beside itself, in its folder, and that need not be there; no
+/// format is read strictly.
+[[nodiscard]] Result<std::vector<std::filesystem::path>> filesNamedIn(const std::filesystem::path& header);
+
+/// Refuses outputs that cannot be written, two that are one file or standard output ("-"), one that is an input by
+/// whatever name: a link, another spelling, a file of a DICOM folder, the file of voxels or buffers that a header
+/// names; and, after keepExisting(true), one that exists. Empty paths are not examined.
+[[nodiscard]] Result<void> checkOutputs(const std::vector<NamedPath>& outputs, const std::vector<NamedPath>& inputs);
+/// Whether checkOutputs() refuses files that exist, from now on: --force is not given.
+void keepExisting(bool keep) noexcept;
+/// Whether one of the outputs that checkOutputs() has passed is a file.
+[[nodiscard]] bool writesFiles() noexcept;
+
+} // namespace voxtact::app

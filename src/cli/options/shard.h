@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cli/output/output.h"
+
+#include <cstdint>
+#include <initializer_list>
+#include <utility>
+
+namespace CLI {
+class App;
+} // namespace CLI
+
+namespace voxtact::app {
+
+/// A contiguous part of a run's rows: number `index`, from 1, of `count`. The CSV of the parts, one behind the other,
+/// is that of the whole run.
+struct Shard {
+    std::uint32_t index = 1;
+    std::uint32_t count = 1;
+
+    [[nodiscard]] bool isPart() const noexcept { return count > 1; }
+    /// Whether its CSV has the line with the columns.
+    [[nodiscard]] bool hasHead() const noexcept { return index == 1; }
+    /// Of `rows`, the number of its first one and of the first one behind it.
+    [[nodiscard]] std::pair<std::uint64_t, std::uint64_t> range(std::uint64_t rows) const noexcept;
+};
+
+void addShardOption(CLI::App& parser, Shard& shard);
+
+/// Refuses formats that cannot be put together from parts, and those options (whether given, name) that are about the
+/// whole run. Rows of a part are CSV by default.
+[[nodiscard]] Result<void> checkShard(const Shard& shard, OutputOptions& output,
+                                      std::initializer_list<std::pair<bool, const char*>> whole);
+
+} // namespace voxtact::app

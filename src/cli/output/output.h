@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "io/text/table.h"
+#include "voxtact/error.h"
+
+#include <filesystem>
+#include <functional>
+#include <iosfwd>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace voxtact::app {
+
+/// Where a command's output goes.
+struct OutputOptions {
+    std::filesystem::path path; ///< empty: standard output
+    std::string formatName;     ///< empty: text on a terminal, else CSV
+
+    [[nodiscard]] io::Format format() const;
+};
+
+/// Whether `path` can be written, found out without writing: no work is done for nothing. Fine when it is empty.
+[[nodiscard]] Result<void> checkOutput(const std::filesystem::path& path);
+
+/// Refuses two of the named paths ("--output", path) that are one file; empty ones, devices and pipes are not
+/// examined.
+[[nodiscard]] Result<void> checkDistinct(const std::vector<std::pair<std::string, std::filesystem::path>>& paths);
+
+/// Calls `write`, and puts what it wrote in `path` (a temporary file, renamed; devices and pipes are written as they
+/// are) or, where that is empty, on standard output. Nothing is put there when `write` fails.
+[[nodiscard]] Result<void> deliver(const std::filesystem::path& path,
+                                   const std::function<Result<void>(std::ostream&)>& write);
+
+/// Where something goes, and what writes it.
+struct Delivery {
+    std::filesystem::path path;
+    std::function<Result<void>(std::ostream&)> write;
+};
+
+/// deliver() of several: nothing is put anywhere before all are written, and standard output comes first.
+[[nodiscard]] Result<void> deliverAll(std::vector<Delivery> deliveries);
+
+} // namespace voxtact::app

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cli/pairs/pair_window.h"
+
+#include <span>
+
+namespace voxtact::app {
+
+/// What is to be said of a mesh that is a thousand times too small or too large for a volume, or that comes near it at
+/// no pose: most often its unit, or its space, is another one than was said. And of one that touches nothing and
+/// encloses something opaque.
+class FitNotes {
+  public:
+    /// Both must outlive it.
+    FitNotes(const PairOptions& options, const PairInputs& inputs);
+
+    /// Of each job: 0 where no pose brings the mesh's box near the volume; selectPoses() counts.
+    [[nodiscard]] std::vector<std::uint64_t>& near() noexcept { return near_; }
+    /// Counts the poses, and looks at the size of the mesh at the first pose of each job.
+    void look(const Window& window, const Grid& grid, const OpaqueVoxels& opaque);
+    /// What touches, or is within a distance that was asked for, is near wherever the box is.
+    void lookAtAnswers(std::span<const Row> rows);
+    /// Once all windows have been examined.
+    void addTo(std::vector<std::string>& notes) const;
+
+  private:
+    const PairOptions& options_;
+    const PairInputs& inputs_;
+    std::vector<std::uint64_t> near_;
+    std::vector<std::uint64_t> poses_;
+    std::vector<std::string> sizes_; ///< the note of each job; empty: none
+    struct First {
+        Mat4 world_from_object{};
+        OpaqueVoxels opaque; ///< null: something touches at one of the poses
+    };
+    std::vector<First> first_; ///< pose of each job
+};
+
+} // namespace voxtact::app

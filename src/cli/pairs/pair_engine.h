@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cli/pairs/fit_notes.h"
+#include "cli/pairs/window_rows.h"
+#include "core/base/try.h"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+
+namespace voxtact::app {
+
+/// What answers pairs: the host, or a method of a device.
+class PairEngine {
+  public:
+    PairEngine() = default;
+    PairEngine(const PairEngine&) = delete;
+    PairEngine& operator=(const PairEngine&) = delete;
+    virtual ~PairEngine() = default;
+
+    [[nodiscard]] virtual std::string device() const = 0;
+    [[nodiscard]] virtual std::string driver() const = 0;
+    /// The answer for a pair that cannot touch.
+    [[nodiscard]] virtual PairAnswer untouched() const = 0;
+    /// Makes the volume of a job the one that answer() is about; says where it lies.
+    [[nodiscard]] virtual Result<Grid> use(std::uint32_t job) = 0;
+    /// Of that volume.
+    [[nodiscard]] virtual OpaqueVoxels opaque() const = 0;
+    /// Answers for the selected poses of the window, in order. Ends early, and well, once `stop` says so.
+    [[nodiscard]] virtual Result<void> answer(const Window& window, WindowRows& rows,
+                                              const std::function<bool()>& stop) = 0;
+};
+
+/// The jobs of each volume, where they stand side by side: their pairs, as far as they are of the shard.
+[[nodiscard]] std::vector<PairRange> volumeGroups(const PairOptions& options, const PairInputs& inputs);
+
+/// Puts pairs to an engine.
+class PairAsker {
+  public:
+    /// All must outlive it.
+    PairAsker(const PairOptions& options, PairInputs& inputs, PairEngine& engine);
+
+    /// The pairs of a range. Ends early, and well, once the user interrupts. `progress` is called now and then.
+    [[nodiscard]] Result<void> answer(const PairRange& range, PairOutput& output,
+                                      const std::function<void()>& progress);
+    /// That the engine took so far.
+    [[nodiscard]] double milliseconds() const noexcept { return milliseconds_; }
+    /// What is to be said of meshes and volumes that do not fit.
+    void addTo(std::vector<std::string>& notes) const { fit_.addTo(notes); }
+
+  private:
+    [[nodiscard]] Result<void> answer(Window& window, const Grid& grid, PairOutput& output,
+                                      const std::function<void()>& progress);
+
+    const PairOptions& options_;
+    PairInputs& inputs_;
+    PairEngine& engine_;
+    FitNotes fit_;
+    double milliseconds_ = 0;
+};
+
+/// All pairs of the jobs by the engine. Ends early, and well, once the user interrupts. Returns the milliseconds that
+/// the engine took. What is to be said of meshes and volumes that do not fit is added to `notes`.
+[[nodiscard]] Result<double> answerPairs(const PairOptions& options, PairInputs& inputs, PairEngine& engine,
+                                         PairOutput& output, std::vector<std::string>& notes);
+
+/// Calls `answer` for an engine of the session's device, or of the host (no Vulkan). What it was made of ends with it.
+using UseEngine = std::function<Result<void>(PairEngine&)>;
+[[nodiscard]] Result<void> withDeviceEngine(const PairOptions& options, const PairInputs& inputs,
+                                            const device::Session& session, CountingMethod method,
+                                            const UseEngine& answer);
+[[nodiscard]] Result<void> withHostEngine(const PairOptions& options, const PairInputs& inputs,
+                                          const UseEngine& answer);
+
+/// Volumes that are ready, kept while a later job has them and there is room: read once, not for each job.
+template <class Ready> class VolumeShelf {
+  public:
+    VolumeShelf(const PairJobs& jobs, std::uint64_t mostBytes) : jobs_(jobs), mostBytes_(mostBytes) {}
+
+    /// The volume of this job, made by `make` (Result<Ready>, where Ready::bytes says how large it is) if it is not
+    /// there.
+    template <class Make> Result<Ready*> get(std::uint32_t job, const Make& make) {
+        const std::uint32_t volume = jobs_.jobs[job].volume;
+        if (const auto found = ready_.find(volume); found != ready_.end()) {
+            return &found->second;
+        }
+        std::erase_if(ready_, [&](const auto& entry) { return nextUse(entry.first, job) == kNever; });
+        for (std::uint64_t bytes = bytesOf(); !ready_.empty() && bytes > mostBytes_; bytes = bytesOf()) {
+            ready_.erase(std::max_element(ready_.begin(), ready_.end(), [&](const auto& a, const auto& b) {
+                return nextUse(a.first, job) < nextUse(b.first, job);
+            }));
+        }
+        Result<Ready> made = make();
+        VOXTACT_TRY(made);
+        return &ready_.emplace(volume, std::move(*made)).first->second;
+    }
+
+  private:
+    static constexpr std::size_t kNever = SIZE_MAX;
+
+    /// The next job from this one on that has the volume.
+    [[nodiscard]] std::size_t nextUse(std::uint32_t volume, std::size_t job) const {
+        while (job < jobs_.jobs.size() && jobs_.jobs[job].volume != volume) {
+            ++job;
+        }
+        return job < jobs_.jobs.size() ? job : kNever;
+    }
+    [[nodiscard]] std::uint64_t bytesOf() const {
+        std::uint64_t sum = 0;
+        for (const auto& [volume, ready] : ready_) {
+            sum += ready.bytes;
+        }
+        return sum;
+    }
+
+    const PairJobs& jobs_;
+    std::uint64_t mostBytes_;
+    std::map<std::uint32_t, Ready> ready_;
+};
+
+} // namespace voxtact::app

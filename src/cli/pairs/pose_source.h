@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "voxtact/io.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace voxtact::app {
+
+/// The poses of a file or of standard input, some at a time and as often as they are needed: memory does not grow with
+/// their number.
+class PoseSource {
+  public:
+    /// No path: the identity. "-": standard input, which is read as it is asked for, or all at once where it is needed
+    /// `again`. A file is read once at once, so that what is wrong with it is known before there are answers. `space`:
+    /// of the file; poses come out in LPS.
+    [[nodiscard]] static Result<PoseSource> open(const std::filesystem::path& path, bool again,
+                                                 const std::string& space = "lps");
+
+    /// How many there are, where that is known.
+    [[nodiscard]] std::optional<std::uint64_t> count() const noexcept { return count_; }
+
+    /// From number `from` on, which must be below count(), or 0. Forward from where it is, nothing is read twice.
+    [[nodiscard]] Result<void> begin(std::uint64_t from = 0);
+    /// The next ones, at most so many, instead of what `poses` holds; none at the end.
+    [[nodiscard]] Result<void> next(std::size_t most, std::vector<Mat4>& poses);
+
+  private:
+    PoseSource() = default;
+    [[nodiscard]] Result<void> takeStock();
+
+    std::filesystem::path path_;
+    std::string space_;
+    std::optional<std::uint64_t> count_;
+    std::vector<Mat4> kept_; ///< all of them, where they are few
+    bool isKept_ = false;
+    std::optional<io::PoseReader> reader_;
+    std::uint64_t given_ = 0; ///< since begin()
+};
+
+} // namespace voxtact::app

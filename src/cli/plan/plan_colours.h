@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cli/draw/viridis.h"
+#include "voxtact/plan.h"
+
+#include <cmath>
+#include <limits>
+
+namespace voxtact::app {
+
+/// Unsafe red, undecided grey, safe by its clearance.
+[[nodiscard]] inline Rgb planColour(const PlannedPath& path, double maximum) {
+    constexpr Rgb kUnsafe{178, 34, 34};
+    constexpr Rgb kPossible{128, 128, 128};
+    return path.safety == Safety::Unsafe      ? kUnsafe
+           : path.safety == Safety::Undecided ? kPossible
+                                              : viridis(path.clearance.lower / maximum);
+}
+
+/// The largest float that is no larger.
+[[nodiscard]] inline float roundedDown(double value) {
+    const auto nearest = static_cast<float>(value);
+    return nearest > value ? std::nextafter(nearest, -std::numeric_limits<float>::infinity()) : nearest;
+}
+
+/// Of two that are safe: the larger clearance, else the shorter one.
+[[nodiscard]] inline bool isBetter(const PlannedPath& a, const PlannedPath& b) {
+    return a.clearance.lower != b.clearance.lower ? a.clearance.lower > b.clearance.lower : a.length < b.length;
+}
+
+} // namespace voxtact::app

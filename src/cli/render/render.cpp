@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "voxtact/render.h"
+#include "cli/commands.h"
+#include "cli/options/open_session.h"
+#include "cli/output/interrupt.h"
+#include "cli/output/standard_streams.h"
+#include "cli/render/device_picture.h"
+#include "core/base/try.h"
+#include "voxtact/io.h"
+#include "voxtact/looks.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+
+namespace voxtact::app {
+
+namespace {
+
+/// A host may be asked for any size; what a PNG of ours cannot have is refused before the work.
+Result<void> checkSliceSize(VkExtent2D size) {
+    constexpr std::uint32_t kMostPixels = 16384;
+    if (size.width > kMostPixels || size.height > kMostPixels) {
+        return badArgument("--size " + std::to_string(size.width) + "x" + std::to_string(size.height) +
+                           " is beyond what a slice may have: " + std::to_string(kMostPixels) + "x" +
+                           std::to_string(kMostPixels));
+    }
+    return {};
+}
+
+ValueRange windowOf(const RenderOptions& options, const RenderInputs& inputs) {
+    if (options.window) {
+        return *options.window;
+    }
+    const LookPreset* preset = findLookPreset(options.preset);
+    return preset != nullptr && preset->window ? *preset->window : usualWindow(inputs.volume.view(), inputs.values);
+}
+
+Result<Picture> renderSlice(const RenderOptions& options, const RenderInputs& inputs, const ValueRange& window) {
+    VOXTACT_TRY(checkSliceSize(options.view.size));
+    SliceScene scene;
+    scene.volume = &inputs.volume;
+    scene.plane = *inputs.slice;
+    scene.clip_from_world = inputs.clip_from_world;
+    scene.window = window;
+    scene.background = options.background;
+    scene.threshold = options.transferFunction.threshold;
+    // Of a picture as large as a screen; finer where it is smaller.
+    constexpr double kPixelsOfOutline = 300;
+    scene.thickness = std::max(1.0, std::min(options.view.size.width, options.view.size.height) / kPixelsOfOutline);
+    std::vector<std::vector<std::uint32_t>> touching(inputs.meshes.size() * inputs.poses.size());
+    if (!options.show.what.empty() && !inputs.clearance) {
+        const TransferFunctionDesc function = inputs.transferFunction(options);
+        if (options.show.what == "triangles") {
+            Result<std::vector<std::vector<std::uint32_t>>> found = touchingTriangles(
+                {inputs.volume, inputs.meshes, inputs.poses, function, scene.threshold}, options.progress);
+            VOXTACT_TRY(found);
+            touching = std::move(*found);
+        } else {
+            scene.transferFunction = function;
+            scene.elsewhere =
+                options.show.what == "discarded" ? std::optional(MeshPaint{}.discardedColour) : std::nullopt;
+        }
+    }
+    for (std::size_t i = 0; i < touching.size(); ++i) {
+        const std::size_t mesh = i / inputs.poses.size();
+        scene.meshes.push_back(
+            {&inputs.meshes[mesh], inputs.poses[i % inputs.poses.size()], meshColour(options, mesh), touching[i],
+             inputs.clearance ? std::span<const Colour>(inputs.clearance->colours[i]) : std::span<const Colour>()});
+    }
+    return makeSlice(scene, options.view.size);
+}
+
+/// On the device. The validation's messages are complete once everything on it has ended.
+Result<Picture> renderVolume(const RenderOptions& options, const RenderInputs& inputs, Outcome& invalid) {
+    std::shared_ptr<const device::ValidationMessages> messages;
+    Result<Picture> picture = [&]() -> Result<Picture> {
+        const Result<device::Session> session = openSession(options.device);
+        VOXTACT_TRY(session);
+        messages = session->instance.messages();
+        return renderOn(options, inputs, *session);
+    }();
+    if (picture.ok()) {
+        invalid = validationOutcome(*messages);
+    }
+    return picture;
+}
+
+/// What is over the picture, and then the file.
+Result<void> finish(const RenderOptions& options, const RenderInputs& inputs, const std::optional<ValueRange>& window,
+                    Picture& picture) {
+    if (inputs.clearance) {
+        drawClosest(picture, *inputs.clearance, inputs.clip_from_world);
+    }
+    if (inputs.room) {
+        VOXTACT_TRY(annotate(picture, annotationOf(options, inputs, window), *inputs.room));
+    }
+    return io::writePng(options.output, picture.width, picture.height, picture.rgba,
+                        [](std::uint32_t, std::uint32_t) { return !interrupted(); });
+}
+
+Outcome drawAndWrite(const RenderOptions& options, const RenderInputs& inputs) {
+    std::optional<ValueRange> window;
+    if (inputs.slice) {
+        window = windowOf(options, inputs);
+    }
+    Outcome invalid;
+    Result<Picture> picture = window ? renderSlice(options, inputs, *window) : renderVolume(options, inputs, invalid);
+    VOXTACT_TRY(picture);
+    if (invalid.status != kExitDone) {
+        return invalid;
+    }
+    const Result<void> finished = finish(options, inputs, window, *picture);
+    return finished.ok() ? Outcome() : Outcome(finished.error());
+}
+
+Outcome runRender(const RenderOptions& options) {
+    VOXTACT_TRY(checkRenderOptions(options));
+    const Result<RenderInputs> inputs = readRenderInputs(options);
+    VOXTACT_TRY(inputs);
+    for (const std::string& note : unusedNotes(options, inputs->room.has_value())) {
+        printNote(note);
+    }
+    const InterruptGuard guard; // a signal before leaves nothing behind either
+    const Outcome outcome = drawAndWrite(options, *inputs);
+    // Else the file was complete before the signal.
+    return interrupted() && outcome.status != kExitDone ? interruptOutcome("nothing is written") : outcome;
+}
+
+} // namespace
+
+Command addRender(CLI::App& program) {
+    auto options = std::make_shared<RenderOptions>();
+    CLI::App* parser = program.add_subcommand("render", "draw a PNG of a volume and of meshes in it");
+    addRenderOptions(*parser, *options);
+    return {parser, [options] { return runRender(*options); }};
+}
+
+} // namespace voxtact::app

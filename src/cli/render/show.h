@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cli/options/open_session.h"
+#include "cli/options/shared_options.h"
+#include "cli/render/mesh_clearance.h"
+#include "voxtact/render.h"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace voxtact::app {
+
+/// What is painted on the mesh.
+struct ShowOptions {
+    std::string what; ///< empty: nothing
+    std::optional<double> through;
+    std::optional<double> maximum; ///< mm, of the colours of clearance
+
+    [[nodiscard]] bool isClearance() const { return what == "distance"; }
+};
+
+/// --show, --through and --max-distance, and that they and --opacity-threshold need what they are about. After those
+/// options.
+void addShowOptions(CLI::App& parser, ShowOptions& options);
+/// What the parser cannot see.
+[[nodiscard]] Result<void> checkShowOptions(const ShowOptions& options);
+
+/// The triangles that touch for certain, by the projection certified on the host: of each mesh at each pose, mesh by
+/// mesh.
+[[nodiscard]] Result<std::vector<std::vector<std::uint32_t>>> touchingTriangles(const ShownPairs& pairs, bool progress);
+
+/// What MeshPaints refer to. Must outlive the picture.
+struct ShowObjects {
+    std::optional<TransferFunction> transferFunction{};
+    std::vector<PaintedTriangles> triangles{}; ///< of each mesh at each pose, mesh by mesh
+    std::vector<PaintedVertices> vertices{};   ///< the same
+};
+
+/// Decides what `clearance` has not measured, and uploads.
+[[nodiscard]] Result<ShowObjects> makeShowObjects(const ShowOptions& options, const ShownPairs& pairs,
+                                                  const std::optional<MeshClearance>& clearance, bool progress,
+                                                  const device::Session& session, const Renderer& renderer);
+
+/// Of a mesh at a pose, by its number among all.
+[[nodiscard]] MeshPaint paintOf(const ShowOptions& options, const ShowObjects& objects, double threshold,
+                                std::size_t number);
+
+} // namespace voxtact::app

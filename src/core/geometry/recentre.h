@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "exact/pair_setup.h"
+#include "voxtact/data.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace voxtact {
+
+/// Where the floats of a mesh are: a vertex is its float position plus the offset, object space.
+struct MeshOrigin {
+    Vec3 offset{};
+    double rounding = 0; ///< object units: no vertex is farther from there
+};
+
+/// A mesh in the floats that the engines keep, in the space of its MeshOrigin.
+struct FloatMesh {
+    std::span<const float> positions;
+    std::span<const std::uint32_t> indices;
+};
+
+/// Vertices as floats. What floats hold has no offset. Elsewhere the box's centre, rounded to a few bits, is taken off
+/// where the box is farther from the origin than it is long.
+struct Recentred {
+    MeshOrigin origin;
+    std::vector<float> positions;
+};
+/// Expects three finite coordinates a vertex, which single precision does not take for infinite.
+[[nodiscard]] Recentred recentred(std::span<const double> positions);
+/// The offset for vertices in a box.
+[[nodiscard]] Vec3 offsetOf(const Box& bounds);
+/// Rounds the positions less the offset. Returns MeshOrigin::rounding.
+[[nodiscard]] double roundPositions(std::span<const double> positions, const Vec3& offset, std::vector<float>& out);
+
+/// What checkMesh() accepts, and its vertices as floats. MeshFacts::degenerate is of these.
+struct CheckedMesh {
+    MeshFacts facts;
+    MeshOrigin origin;
+    std::vector<float> positions;
+};
+/// Refuses what checkMesh() refuses.
+[[nodiscard]] Result<CheckedMesh> checkedMesh(const MeshView& mesh);
+
+/// As the text that is shared with shaders has it.
+[[nodiscard]] inline shader::PairOrigin toPairOrigin(const MeshOrigin& origin) noexcept {
+    return {{origin.offset[0], origin.offset[1], origin.offset[2]}, origin.rounding};
+}
+
+/// Where a pose takes the floats of a mesh; without an offset the pose itself.
+[[nodiscard]] Mat4 worldFromFloats(const Mat4& world_from_object, const MeshOrigin& origin) noexcept;
+
+} // namespace voxtact

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "host/area/label_cut.h"
+#include "host/cancel.h"
+#include "host/search/mesh_place.h"
+#include "voxtact/area.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace voxtact::cpu {
+
+/// What is asked of a measurement.
+struct AreaGoal {
+    double tolerance = 0;        ///< mm^2: how near to each other the bounds of each sum are brought
+    std::uint64_t mostSteps = 0; ///< so many parts are divided
+    CancelFlag cancel = nullptr; ///< what a cancelled measurement says means nothing
+};
+
+/// What it found.
+struct AreaFound {
+    Bounds bounds;
+    StopReason end{};
+};
+
+/// What one triangle has of it.
+struct TriangleFound {
+    std::uint32_t triangle = 0; ///< number in the mesh
+    double whole = 0;           ///< mm^2, of all of it
+    Bounds bounds;
+};
+
+/// The contact area of a mesh that is in place: parts of its triangles, each in a cell, between bounds; and those
+/// whose bounds are farthest apart divided, until all together are within the tolerance. The same on every processor.
+/// `triangles`: null, or where those go that may have an area, by number.
+[[nodiscard]] AreaFound measureArea(const VolumeImpl& volume, const OpaquePart& part, MeshPlace& mesh,
+                                    const AreaGoal& goal, std::vector<TriangleFound>* triangles = nullptr);
+
+/// The same of what is opaque and where labelAt() says some labels: as many as there are slots, each with steps of its
+/// own.
+[[nodiscard]] std::vector<AreaFound> measureAreas(const VolumeImpl& volume, const OpaquePart& part, MeshPlace& mesh,
+                                                  const AreaLabels& labels, std::size_t slots, const AreaGoal& goal);
+
+} // namespace voxtact::cpu

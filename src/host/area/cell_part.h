@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "host/area/area_frame.h"
+#include "host/search/opaque_part.h"
+
+#include <cstdint>
+
+namespace voxtact::cpu {
+
+/// A part of a triangle in one cell of the volume.
+struct CellPart {
+    UvPolygon polygon;
+    std::uint32_t frame = 0; ///< number of its triangle's
+    NodePlace padded{};      ///< its cell
+    std::uint16_t slot = 0;  ///< of the sums that it is counted in
+    bool atEdge = false;     ///< rounding decides whether it is where it counts
+};
+
+/// The area of a part that is opaque, mm^2.
+struct PartArea {
+    double lo = 0;
+    double hi = 0;
+    double gain = 0; ///< mm^2: so much nearer dividing it may bring them; 0: not at all
+    int axis = 0;    ///< across that one it is best divided
+};
+
+/// How much of parts of triangles is opaque. One thread's.
+class PartMeasure {
+  public:
+    /// All must outlive it.
+    PartMeasure(const VolumeImpl& volume, const OpaquePart& part, const AreaSlack& slack);
+
+    [[nodiscard]] PartArea area(const AreaFrame& frame, const CellPart& part) const;
+    /// Whether all of a polygon whose box lies in this brick is certainly opaque.
+    [[nodiscard]] bool allOpaque(const NodePlace& brick) const;
+    /// A polygon's own area, opaque or not.
+    [[nodiscard]] static PartArea whole(const AreaFrame& frame, const UvPolygon& polygon) noexcept;
+
+  private:
+    [[nodiscard]] PartArea areaInside(const AreaFrame& frame, const CellPart& part, const PartCell& cell) const;
+    [[nodiscard]] double errorAround(const NodePlace& padded, const PartCell& cell) const;
+
+    const VolumeImpl& volume_;
+    const OpaquePart& part_;
+    double reach_;     ///< AreaSlack::reach()
+    double wide_;      ///< what that may change a value by, anywhere in the volume
+    double wideError_; ///< and what rounding does
+};
+
+} // namespace voxtact::cpu

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "voxtact/error.h"
+
+#include <atomic>
+
+namespace voxtact::cpu {
+
+/// Batch::cancel of one call, which may be null. What any thread of the call has seen stays seen: a flag that is taken
+/// back meanwhile does not turn a call that has left something out into an answer.
+class Cancellation {
+  public:
+    explicit Cancellation(const std::atomic<bool>* asked) noexcept : asked_(asked) {}
+
+    [[nodiscard]] bool seen() const noexcept {
+        if (asked_ == nullptr) {
+            return false;
+        }
+        if (asked_->load(std::memory_order_relaxed)) {
+            seen_.store(true, std::memory_order_relaxed);
+        }
+        return seen_.load(std::memory_order_relaxed);
+    }
+
+  private:
+    const std::atomic<bool>* asked_;
+    mutable std::atomic<bool> seen_ = false;
+};
+
+/// That of the call at hand; null: it has none.
+using CancelFlag = const Cancellation*;
+
+[[nodiscard]] inline bool isCancelled(CancelFlag cancel) noexcept {
+    return cancel != nullptr && cancel->seen();
+}
+
+/// What a cancelled call returns instead of what it has so far, which says nothing of any pair.
+[[nodiscard]] inline Result<void> checkNotCancelled(const Cancellation& cancel) {
+    if (cancel.seen()) {
+        return Error{ErrorCode::Cancelled, 0, "the call was cancelled (Batch::cancel)"};
+    }
+    return {};
+}
+
+} // namespace voxtact::cpu

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "host/count/kernel.h"
+#include "host/count/occupancy.h"
+#include "host/count/occupancy_cache.h"
+#include "host/thread_pool.h"
+#include "voxtact/cpu.h"
+
+#include <span>
+
+namespace voxtact::cpu {
+
+using Occupancies = OccupancyCache<Occupancy, 1>;
+
+/// What the threads of a detector keep from call to call; a scratch for each thread of the pool.
+struct Workshop {
+    ThreadPool& pool;
+    std::span<const ScratchPointer> scratches;
+};
+
+/// The answers of a checked batch in the projections that have samples: view, two-view, dominant-axis. What they say
+/// of a call that is cancelled means nothing.
+[[nodiscard]] BatchAnswer runCounts(const Batch& batch, const Cancellation& cancel, std::uint32_t pairs,
+                                    const Count& desc, const Workshop& workshop, Occupancies& occupancies);
+
+} // namespace voxtact::cpu

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "host/scene/scene_impl.h"
+#include "host/search/cells/vertex_reach.h"
+
+#include <span>
+#include <vector>
+
+namespace voxtact::cpu {
+
+/// A mesh on its way from one shape to another: each vertex goes straight, at constant speed.
+class Bending {
+  public:
+    /// The shapes are such as checkMesh() accepts, and live as long as it. The mesh is copied.
+    Bending(const MeshImpl& mesh, std::span<const double> from, std::span<const double> to);
+
+    /// Around all shapes on the way.
+    [[nodiscard]] const Box& bounds() const noexcept { return shape_.facts.bounds; }
+    /// How far vertices go in all.
+    [[nodiscard]] const VertexReach& reach() const noexcept { return reach_; }
+    /// No vertex at a parameter is farther from where it would be without rounding, object units.
+    [[nodiscard]] double rounding() const noexcept { return rounding_; }
+    /// The mesh at a parameter, as shapeBetween() has it; until the next call.
+    [[nodiscard]] const MeshImpl& at(double parameter);
+
+  private:
+    void findReach();
+    [[nodiscard]] double roundingOf(const Box& bounds) const;
+
+    std::span<const double> from_;
+    std::span<const double> to_;
+    MeshImpl shape_;
+    double parameter_ = -1; ///< of the shape
+    std::vector<double> positions_;
+    std::vector<float> floats_;
+    VertexReach reach_;
+    double rounding_ = 0;
+};
+
+} // namespace voxtact::cpu

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "host/overlap/overlap_labels.h"
+#include "host/overlap/overlap_part.h"
+#include "host/overlap/pair_surface.h"
+#include "host/overlap/solid_surface.h"
+#include "host/search/pair_at.h"
+#include "voxtact/overlap.h"
+
+#include <memory>
+#include <vector>
+
+namespace voxtact::cpu {
+
+/// What is made of a batch item for all of its poses.
+struct OverlapItem {
+    std::shared_ptr<const SolidSurface> solid;
+    std::shared_ptr<const OverlapPart> part;
+    /// What is no less than each limit of bands, and before these all of the volume; empty: no bands.
+    std::vector<std::shared_ptr<const OverlapPart>> limits;
+    const OverlapLabels* labels = nullptr; ///< null: no labels
+};
+
+/// mm^3.
+struct Measure {
+    Bounds bounds;
+    Containment inside = Containment::None;
+    StopReason end = StopReason::Closed;
+};
+
+/// All that is asked of a pair.
+struct PairMeasures {
+    Measure whole;
+    Bounds solid;
+    std::vector<Measure> bands;
+    std::vector<Measure> labels; ///< by slot
+};
+
+/// What is kept from pair to pair, one thread's.
+struct OverlapMemory {
+    MeshPlace& mesh;
+    PairSurface& surface;
+};
+
+/// The same on every processor.
+[[nodiscard]] PairMeasures measurePair(const Overlap& question, const OverlapItem& made, const BatchItem& item,
+                                       const Mat4& world_from_object, const OverlapMemory& memory, CancelFlag cancel);
+
+} // namespace voxtact::cpu

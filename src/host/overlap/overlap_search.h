@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "host/cancel.h"
+#include "host/overlap/overlap_labels.h"
+#include "host/overlap/overlap_part.h"
+#include "host/overlap/pair_surface.h"
+#include "voxtact/overlap.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace voxtact::cpu {
+
+/// What is asked of a measurement.
+struct OverlapGoal {
+    double tolerance = 0;        ///< voxels: how near to each other the bounds of each sum are brought
+    std::uint64_t maxSteps = 0;  ///< so many boxes are divided, of each sum
+    CancelFlag cancel = nullptr; ///< what a cancelled measurement says means nothing
+    /// Voxels: volumes that are larger prove something. Boxes are divided on, for a while, until there is such a volume
+    /// inside the solid, and one outside of it, or certainly none.
+    double error = 0;
+    bool isSomeOutside = false; ///< there is something opaque outside, elsewhere
+};
+
+/// One sum.
+struct OverlapFound {
+    Bounds bounds; ///< voxels
+    StopReason end{};
+    bool isCrossed = false;  ///< the surface is in cells that may be opaque
+    bool mayOverlap = false; ///< false: no opaque point is inside
+    bool mayLeave = false;   ///< false: all opaque points of the cells that were crossed are inside
+    double outside = 0;      ///< voxels that are certainly opaque and not inside, of these cells
+};
+
+/// The opaque region behind a pair's surface. The same on every processor. `labels`: null where there is one sum.
+[[nodiscard]] std::vector<OverlapFound> measureOverlap(const VolumeImpl& volume, const OverlapPart& part,
+                                                       const PairSurface& surface, const OverlapLabels* labels,
+                                                       const OverlapGoal& goal);
+
+} // namespace voxtact::cpu

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+
+namespace voxtact::cpu {
+
+/// A triangle of object space, and the welded numbers of its vertices.
+struct SolidTriangle {
+    std::array<glm::dvec3, 3> corners{};
+    std::array<std::uint32_t, 3> vertices{};
+};
+
+/// Whether two triangles certainly have nothing in common but the vertices and the edge that they share by number.
+[[nodiscard]] bool certainlyApart(const SolidTriangle& a, const SolidTriangle& b) noexcept;
+
+/// Whether a ray crosses a triangle.
+enum class Crossing : std::uint8_t { No, Leaves, Enters, Unknown };
+/// The triangle's corners relative to the ray's origin. Leaves: along the triangle's normal.
+[[nodiscard]] Crossing crossingOf(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& direction) noexcept;
+
+} // namespace voxtact::cpu

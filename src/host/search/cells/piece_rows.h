@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "host/search/cells/volume_space.h"
+#include "host/search/label_part.h"
+#include "host/search/opaque_part.h"
+#include "host/search/placed.h"
+
+#include <array>
+#include <cstdint>
+
+namespace voxtact::cpu {
+
+/// Some pieces of cells, row by row, for vectors: what CellPiece is of one.
+struct alignas(kRowAlignment) PieceRows {
+    static constexpr std::size_t kMost = 64;
+    using Row = std::array<double, kMost>;
+
+    std::array<Row, 8> terms{};  ///< of their cells
+    Row error{};                 ///< of these
+    std::array<Row, 3> cell{};   ///< the cells' middles, centred voxel coordinates
+    std::array<Row, 3> middle{}; ///< of the pieces, in their cells' coordinates
+    std::array<Row, 3> half{};   ///< of their sides
+    Row lo{};                    ///< of the interpolant in each, its error included
+    Row hi{};
+    Row hullLo{}; ///< OpaqueIntervals::meet()
+    Row hullHi{};
+    Row apart{};           ///< mm
+    std::size_t count = 0; ///< of the pieces
+
+    /// Adds a piece of a cell. Expects fewer than the most.
+    void add(const PartCell& cell, const PiecePlace& place) noexcept;
+    /// Where in its cell a piece is, in the cell's coordinates.
+    void setPiece(std::size_t number, const glm::dvec3& pieceMiddle, const glm::dvec3& pieceHalf) noexcept {
+        for (int axis = 0; axis < 3; ++axis) {
+            middle[static_cast<std::size_t>(axis)][number] = pieceMiddle[axis];
+            half[static_cast<std::size_t>(axis)][number] = pieceHalf[axis];
+        }
+    }
+};
+
+/// What a piece is measured against: some triangles, by the closest one and all of their corners. Not swept.
+struct PieceJob {
+    const PlacedCluster& triangles;
+    std::size_t nearest = 0; ///< of the triangles
+    const PointList& corners;
+    const VolumeSpace& space;
+    double cut = 0;   ///< mm: what is not nearer need not be known better
+    double error = 0; ///< DistanceError::absolute
+};
+
+/// The terms and their errors, of whole cells that have the stored values at their corners for terms. The same on every
+/// processor, as what follows.
+void makeTerms(PieceRows& rows);
+/// Sets `lo` and `hi`.
+void findRanges(PieceRows& rows);
+/// Sets how far each is apart from the triangles, by two directions. After the hulls are set.
+void findApart(const PieceJob& job, PieceRows& rows);
+
+} // namespace voxtact::cpu

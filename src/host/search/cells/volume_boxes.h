@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "host/search/found.h"
+#include "host/search/label_part.h"
+#include "host/search/opaque_part.h"
+#include "host/search/sweep.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace voxtact::cpu {
+
+/// 2^shift padded cells per side.
+struct CellCube {
+    NodePlace node{}; ///< times 2^shift cells: its first padded cell
+    std::uint8_t shift = 0;
+};
+
+/// A box in centred voxel coordinates, and in bricks and smaller boxes which cells of it may be opaque.
+struct OpaqueBox {
+    glm::dvec3 lo{};
+    glm::dvec3 hi{};
+    const BrickCells* known = nullptr;
+    CellBox cells;       ///< of `known`
+    glm::dvec3 corner{}; ///< of the brick's first cell
+
+    [[nodiscard]] glm::dvec3 middle() const noexcept { return 0.5 * (lo + hi); }
+};
+
+/// The boxes of a volume that a search goes through, and how far what may be opaque in them is from something.
+/// One thread's.
+class VolumeBoxes {
+  public:
+    /// `searched`: of that part; `error`: of what is measured. All must live until the next call.
+    void begin(const VolumeImpl& volume, const OpaquePart& part, const SearchedPart& searched,
+               const DistanceError& error) noexcept;
+
+    /// The whole cube, as far as it is in the volume; false outside of that, and where nothing is opaque.
+    [[nodiscard]] bool whole(const CellCube& cube, OpaqueBox& box) const;
+    /// The part of a cube, of a brick or less, that may hold opaque cells; false where there is none.
+    [[nodiscard]] bool narrow(const CellCube& cube, OpaqueBox& box) const;
+    /// As much of it as may hold something opaque; false where there is none.
+    [[nodiscard]] bool opaque(const CellCube& cube, OpaqueBox& box) const {
+        return whole(cube, box) && (cube.shift > kBrickShift || narrow(cube, box));
+    }
+
+    /// The least dot product of an opaque point with a normal.
+    [[nodiscard]] double least(const OpaqueBox& box, const glm::dvec3& normal) const;
+    /// How far it is from a box of centred voxel coordinates.
+    [[nodiscard]] double gap(const OpaqueBox& box, const glm::dvec3& lo, const glm::dvec3& hi) const {
+        const glm::dvec3 off = glm::max(glm::max(box.lo - hi, lo - box.hi), glm::dvec3(0));
+        return error_.below(glm::length(off * part_->space.spacing));
+    }
+    /// How far along a direction: `reach` is how far something of the mesh is along it.
+    [[nodiscard]] double apart(const OpaqueBox& box, const Direction& along, double reach) const;
+    /// The same of all of the box, which is soon known.
+    [[nodiscard]] double wholeApart(const OpaqueBox& box, const Direction& along, double reach) const;
+
+  private:
+    void set(const NodePlace& first, const NodePlace& last, OpaqueBox& box) const;
+
+    const VolumeImpl* volume_ = nullptr;
+    const OpaquePart* part_ = nullptr;
+    const SearchedPart* searched_ = nullptr;
+    DistanceError error_;
+};
+
+} // namespace voxtact::cpu

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "voxtact/data.h"
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+namespace voxtact::cpu {
+
+/// The space that distances are measured in: the world's axes and millimetres, from the middle of the volume. Voxel
+/// space is measured from there, too: *centred* voxel coordinates are u - (n-1)/2, u being those of
+/// src/exact/certified_triangle.h.
+class VolumeSpace {
+  public:
+    explicit VolumeSpace(const Grid& grid);
+
+    [[nodiscard]] glm::dvec3 toWorld(const glm::dvec3& voxel) const noexcept { return local_from_voxel * voxel; }
+    [[nodiscard]] glm::dvec3 toVoxel(const glm::dvec3& local) const noexcept { return voxel_from_local * local; }
+
+    glm::dmat3 local_from_voxel{1};
+    glm::dmat3 voxel_from_local{1};
+    /// The inverse of the metric: what makes a direction out of a gradient by voxel coordinates.
+    glm::dmat3 direction_from_gradient{1};
+    glm::dvec3 middle{};  ///< world, of the volume
+    glm::dvec3 centre{};  ///< (n-1)/2
+    glm::dvec3 reach{};   ///< half the domain, in voxels
+    glm::dvec3 spacing{}; ///< times what the grid's directions shrink at most: a step of w voxels is no shorter than
+                          ///< the length of spacing * w
+    double magnitude = 0; ///< mm: no coordinate of the volume, nor a term of it, is larger
+    double condition = 1; ///< by so much rounding grows where voxel_from_local is used
+};
+
+} // namespace voxtact::cpu

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/base/infinity.h"
+#include "host/scene/scene_impl.h"
+
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <cstdint>
+
+namespace voxtact::cpu {
+
+/// What a computed distance says of the true one, mm.
+struct DistanceError {
+    /// Of the distance itself: the last roundings, which do not depend on where things are.
+    static constexpr double kRelative = 0x1p-40;
+
+    [[nodiscard]] double below(double distance) const noexcept {
+        return std::max(0.0, distance * (1 - kRelative) - absolute);
+    }
+    [[nodiscard]] double above(double distance) const noexcept { return distance * (1 + kRelative) + absolute; }
+
+    double absolute = 0;
+};
+
+/// What a search found. Distances in mm.
+struct Found {
+    double lo = kInfinity;                ///< no opaque point is nearer
+    double hi = kInfinity;                ///< some opaque point is no farther
+    bool exhausted = false;               ///< mostSteps ended it
+    std::uint32_t triangle = kNoTriangle; ///< the closest one, by its place in the mesh's arrays; with hi finite
+    glm::dvec3 onMesh{};                  ///< local
+    glm::dvec3 inVolume{};
+    bool isOpaque = false; ///< inVolume is: not only some point about there
+    std::uint64_t steps = 0;
+
+    /// Some opaque point is no farther from a triangle than that: about `volume`, or just there where that is `opaque`,
+    /// and about there on it.
+    void offer(double distance, std::uint32_t number, const glm::dvec3& mesh, const glm::dvec3& volume,
+               bool opaque) noexcept {
+        if (distance < hi) {
+            hi = distance;
+            isOpaque = opaque;
+            triangle = number;
+            onMesh = mesh;
+            inVolume = volume;
+        }
+    }
+};
+
+} // namespace voxtact::cpu

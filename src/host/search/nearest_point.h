@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/base/infinity.h"
+#include "host/search/cells/cell_sieve.h"
+#include "host/search/cells/cell_walk.h"
+#include "host/search/label_part.h"
+#include "host/search/mesh_place.h"
+#include "host/search/opaque_part.h"
+
+#include <glm/vec3.hpp>
+
+/// Points that are near, soon: what they are worth is for others to say. Local coordinates (VolumeSpace).
+namespace voxtact::cpu {
+
+struct MeshPoint {
+    glm::dvec3 point{};
+    double distance = kInfinity;
+    std::uint32_t triangle = kNoTriangle; ///< its place in the mesh's arrays
+};
+
+struct OpaquePoint {
+    glm::dvec3 point{};
+    double distance = kInfinity;
+};
+
+/// What looking for an opaque point takes. Contents mean nothing before and after.
+struct NearMemory {
+    PieceRows& rows; ///< empty, before and after
+    SievedCells& cells;
+    WalkRows& walks;
+};
+
+/// About the closest point of the mesh, where there is one nearer than `within`, mm.
+[[nodiscard]] MeshPoint nearestOnMesh(MeshPlace& mesh, const glm::dvec3& from, double within);
+/// About the closest of the points that are certainly opaque, where there is one nearer than `within`, mm.
+[[nodiscard]] OpaquePoint nearestOpaque(const OpaquePart& part, const SearchedPart& searched, const VolumeImpl& volume,
+                                        const glm::dvec3& from, double within, const NearMemory& memory);
+
+/// The same in a brick alone.
+[[nodiscard]] OpaquePoint nearestInBrick(const OpaquePart& part, const SearchedPart& searched, const VolumeImpl& volume,
+                                         const NodePlace& brick, const glm::dvec3& from, double within,
+                                         const NearMemory& memory);
+
+/// Goes along a cell's interpolant from a point of a region of it until the value is certainly opaque; false where it
+/// does not get there. `at`: the cell's coordinates from -1 to 1.
+[[nodiscard]] bool goToOpaque(const OpaquePart& part, const PartCell& cell, const CellRegion& region,
+                              glm::dvec3& at) noexcept;
+
+} // namespace voxtact::cpu

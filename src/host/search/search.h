@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/base/infinity.h"
+#include "host/cancel.h"
+#include "host/search/cells/cell_piece.h"
+#include "host/search/cells/cell_sieve.h"
+#include "host/search/cells/piece_look.h"
+#include "host/search/cells/piece_rows.h"
+#include "host/search/cells/volume_boxes.h"
+#include "host/search/found.h"
+#include "host/search/label_part.h"
+#include "host/search/mesh_place.h"
+#include "host/search/nearest_point.h"
+#include "host/search/opaque_part.h"
+#include "host/search/pair_heap.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace voxtact::cpu {
+
+/// When a search ends.
+struct SearchGoal {
+    double tolerance = 0;       ///< mm: the bounds are near enough
+    double relative = 0;        ///< of the upper bound: the same
+    double maximum = kInfinity; ///< mm: what is not nearer is not looked for
+    double enough = -1;         ///< mm: an opaque point as near as this ends it
+    double finest = 0;          ///< mm: what is known as well is not examined again
+    std::uint64_t mostSteps = 0;
+    std::optional<glm::dvec3> known{}; ///< local: a point that certainly is searched for. Not with a sweep
+    bool measures = false; ///< a sweep that only shifts: how near it comes is asked, not only whether it is apart
+    bool coarsely = false; ///< what is smaller than the finest is not divided, certain or not
+    bool untilMet = false; ///< a point as near as enough is looked for, though it is known that lo will be 0
+};
+
+/// Looks for the opaque point that is closest to a mesh, best first (Hart, Nilsson and Raphael, 1968): over pairs of a
+/// box of the mesh's tree and a box of the volume's, down to triangles and pieces of cells. One thread's; kept from
+/// pair to pair for its memory.
+class ClosestSearch {
+  public:
+    /// `searched`: of that part. `from`: where to begin, or null: with all of both.
+    [[nodiscard]] Found run(MeshPlace& mesh, const VolumeImpl& volume, const OpaquePart& part,
+                            const SearchedPart& searched, const SearchGoal& goal, const OpenPairs* from = nullptr,
+                            CancelFlag cancel = nullptr);
+    /// Of the last run, whose mesh was swept: without these it is apart from all that is opaque.
+    [[nodiscard]] OpenPairs left() const;
+
+  private:
+    using Pair = SearchPair;
+    static constexpr std::int8_t kTriangles = Pair::kTriangles;
+    /// Level 1 of a tree has a box for each cluster; a mesh of one cluster has no such level.
+    static constexpr std::int8_t kClusters = 1;
+    static constexpr std::uint8_t kMostDepth = 16;
+    /// Boxes of so many cells are not halved: their cells are gone through. A sweep's are one by one.
+    [[nodiscard]] std::uint8_t leastShift() const noexcept { return mesh_->isSwept() ? 2 : 3; }
+
+    void begin(const OpenPairs* from);
+    void beginWithAll();
+    void drop(const Pair& pair);
+    [[nodiscard]] bool mayBeWithin(double distance) const;
+    [[nodiscard]] bool goesOn();
+    [[nodiscard]] Pair next();
+    void open(const Pair& pair);
+    void openBox(const Pair& pair);
+    void openCluster(const Pair& pair);
+    [[nodiscard]] const PlacedBox* boxOf(const Pair& pair);
+    void openVolume(const Pair& pair);
+    void openCells(const Pair& pair);
+    void openLeaf(const Pair& pair);
+    void offer(Pair pair);
+    void offerBox(Pair pair, const PlacedBox& box, const OpaqueBox& region);
+    [[nodiscard]] bool sift(Pair& pair, const OpaqueBox& region);
+    void improve();
+    void lookInto(const Pair& pair, const OpaqueBox& region);
+    /// After gather().
+    void offerPiece(Pair pair, const PartCell& cell);
+    /// The same of all pieces that are in place in `rows_`, whose pairs are `offered_`: none is left there.
+    void offerRows();
+    /// The same of whole cells, soon or when they are offered.
+    void addCell(const Pair& pair);
+    void offerCells();
+    void push(const Pair& pair);
+
+    /// For looks that are over before rows and cells are used again.
+    [[nodiscard]] NearMemory nearMemory() noexcept { return {rows_, cells_, walks_}; }
+    [[nodiscard]] Direction from(const Pair& pair, const glm::dvec3& point);
+    /// Sets what `corners_` is about.
+    void gather(const Pair& pair);
+    [[nodiscard]] double cut() const noexcept {
+        // Of a swept mesh a point says nothing but that it is not apart.
+        if (decides()) {
+            return goal_.maximum;
+        }
+        const double slack = std::max(goal_.tolerance, goal_.relative * found_.hi);
+        return std::min(found_.hi - (found_.hi < kInfinity ? slack : 0), goal_.maximum);
+    }
+    /// Whether all that is asked is if a sweep is apart.
+    [[nodiscard]] bool decides() const noexcept { return mesh_->isSwept() && !goal_.measures; }
+    /// What is closed is not examined again: the answer's lower bound is no higher.
+    [[nodiscard]] bool closes(double lo) {
+        if (lo < cut()) {
+            return false;
+        }
+        found_.lo = std::min(found_.lo, lo);
+        return true;
+    }
+
+    /// Calls `visit(number, triangle)` for those of a pair.
+    template <class Visit> void forTriangles(const Pair& pair, const Visit& visit);
+    /// Keeps those of a pair's triangles whose `bound(triangle)` does not close; false where none is left.
+    template <class Bound> bool keep(Pair& pair, const Bound& bound);
+    /// The same along a direction, whose least dot product with an opaque point is known.
+    bool keepAlong(Pair& pair, const Direction& along, double least);
+    /// The same by what is left of a pair's triangles: `sieve(job)`.
+    template <class Sieve> bool keepBy(Pair& pair, const Sieve& sieve);
+    bool keepByPiece(Pair& pair, const CellPiece& piece, const PieceBounds& bounds);
+
+    MeshPlace* mesh_ = nullptr;
+    const VolumeImpl* volume_ = nullptr;
+    const OpaquePart* part_ = nullptr;
+    const SearchedPart* searched_ = nullptr;
+    SearchGoal goal_;
+    CancelFlag cancel_ = nullptr;
+    Found found_;
+    DistanceError error_;
+    VolumeBoxes boxes_;
+    std::uint64_t stepsInDoubt_ = 0;     ///< since the lower bound was known
+    std::array<double, 32> diameters_{}; ///< mm, of boxes by their shift
+    PointList corners_;                  ///< of the triangles at hand
+    SievedCells cells_;
+    PieceRows rows_;
+    WalkRows walks_;
+    std::vector<Pair> offered_;
+    PairHeap heap_;
+    std::vector<Pair> dropped_; ///< too small to be divided
+    std::optional<Pair> dive_;  ///< as long as there is no point: the nearest of what was offered last
+};
+
+} // namespace voxtact::cpu

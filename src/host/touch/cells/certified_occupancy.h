@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/transfer/opaque_numbers.h"
+#include "host/count/brick_sums.h"
+#include "host/touch/cells/certified_bricks.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace voxtact::cpu {
+
+/// One volume under one transfer function, threshold and resolution, as the projection `certified` sees it: what the
+/// bricks hold of the real interpolant, not of the exact arithmetic's samples.
+class CertifiedOccupancy {
+  public:
+    CertifiedOccupancy(const VolumeImpl& volume, const TransferFunctionImpl& function, double threshold,
+                       double resolution);
+    CertifiedOccupancy(const CertifiedOccupancy&) = delete;
+    CertifiedOccupancy& operator=(const CertifiedOccupancy&) = delete;
+    ~CertifiedOccupancy() = default;
+
+    [[nodiscard]] const shader::CertifiedItem& item() const noexcept { return item_; }
+    /// Valid while this object lives.
+    [[nodiscard]] const shader::OpaqueValues& opaque() const noexcept { return opaque_; }
+    /// Bricks along each axis.
+    [[nodiscard]] const std::array<std::int32_t, 3>& bricks() const noexcept { return count_; }
+    [[nodiscard]] std::size_t brickNumber(const std::array<std::int32_t, 3>& brick) const noexcept {
+        return (static_cast<std::size_t>(brick[2]) * static_cast<std::size_t>(count_[1]) +
+                static_cast<std::size_t>(brick[1])) *
+                   static_cast<std::size_t>(count_[0]) +
+               static_cast<std::size_t>(brick[0]);
+    }
+    /// Whether a brick may have an opaque point.
+    [[nodiscard]] bool mayBeOpaque(std::size_t number) const noexcept { return mixed_[number] != 0; }
+    /// Whether some brick of a box may.
+    [[nodiscard]] bool mayBeOpaque(const BrickBox& box) const noexcept { return sums_.within(box) != 0; }
+    /// Whether some cell of a box may, as far as a look at a few bricks tells. `volume` is the one of the constructor.
+    [[nodiscard]] bool mayBeOpaque(const VolumeImpl& volume, const CellBox& cells) const;
+    [[nodiscard]] bool nothingOpaque() const noexcept { return sums_.all() == 0; }
+    /// The cells of a brick that may have an opaque point. `volume` is the one of the constructor.
+    [[nodiscard]] const BrickCells& cells(const VolumeImpl& volume, const std::array<std::int32_t, 3>& brick) const {
+        return bricks_.at(volume, item_, opaque_, brickNumber(brick), brick);
+    }
+
+    /// Those of them that are opaque all over.
+    [[nodiscard]] const CellBits& allOpaque(const VolumeImpl& volume, const std::array<std::int32_t, 3>& brick) const {
+        return bricks_.allOpaqueAt(volume, item_, opaque_, brickNumber(brick), brick);
+    }
+
+  private:
+    /// The same of those in one brick.
+    [[nodiscard]] bool mayBeOpaque(const VolumeImpl& volume, const std::array<std::int32_t, 3>& brick,
+                                   const CellBox& cells) const;
+
+    OpaqueNumbers numbers_;
+    shader::OpaqueValues opaque_; ///< of those
+    shader::CertifiedItem item_;
+    std::array<std::int32_t, 3> count_;
+    std::vector<std::uint8_t> mixed_;
+    CertifiedBricks bricks_;
+    BrickSums<std::uint32_t> sums_; ///< of mixed_
+};
+
+} // namespace voxtact::cpu

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "exact/certified_overlap.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace voxtact::cpu {
+
+/// The axes of TriangleCells: normals whose components' magnitudes add up to 1, so that half of a cell's shadow on one
+/// is 1/2 long. An edge that is nearly parallel to an axis of the cells has a shorter one with it, or none: it
+/// separates nothing that its neighbours do not.
+struct TriangleAxes {
+    static constexpr std::size_t kCount = 16; ///< some are nothing, to make them as many
+    static constexpr std::size_t kNormal = 0; ///< is the triangle's
+    static constexpr std::size_t kUsed = 13;
+    using Numbers = std::array<float, kCount>;
+
+    Numbers x{};
+    Numbers y{};
+    Numbers z{};
+    Numbers lo{}; ///< the triangle's shadow, and half of a cell's on either side
+    Numbers hi{};
+    float margin = 0; ///< voxels: by how much a cell is made smaller and larger on each side
+    float slack = 0;  ///< voxels along the triangle's normal, which rounding may have turned
+};
+
+/// Which cells a triangle passes through, many at a time, as far as that is clear without cutting the triangle: it
+/// meets a box where no axis separates them, of those of the box, the triangle's normal, and the nine at right angles
+/// to an edge of either (Akenine-Moeller, "Fast 3D triangle-box overlap testing", 2001). They are asked of a box
+/// somewhat smaller than the cell, and of a larger one; for what is between, there is certifiedClip().
+class TriangleCells {
+  public:
+    /// Cells of a side of a cube.
+    static constexpr std::uint32_t kSide = 4;
+    /// A bit for each cell of a cube: x + kSide (y + kSide z).
+    using Bits = std::uint64_t;
+    /// Voxels: nothing is said of triangles that may be displaced farther.
+    static constexpr float kMostDelta = CERTIFIED_OVERLAP_DELTA;
+
+    struct Overlap {
+        Bits some = 0; ///< of a cell in the domain, certifiedClip() leaves something of the triangle
+        Bits none = 0; ///< it leaves nothing
+    };
+
+    /// Whether something is said of a triangle.
+    [[nodiscard]] static bool mayBeAsked(const shader::CertifiedTriangle& triangle) noexcept {
+        return shader::certifiedOverlapMayBeAsked(triangle);
+    }
+    /// Expects one that may be asked.
+    explicit TriangleCells(const shader::CertifiedTriangle& triangle) noexcept;
+
+    /// Of some cells of the cube from `first` on. Expects cells that the triangle's box meets, or beside these by no
+    /// more than two cubes.
+    [[nodiscard]] Overlap of(Bits cells, const std::array<std::int32_t, 3>& first) const noexcept;
+
+  private:
+    shader::VoxelPoint corner_; ///< all else is measured from here
+    TriangleAxes axes_;
+};
+
+} // namespace voxtact::cpu

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "host/cancel.h"
+#include "host/count/occupancy_cache.h"
+#include "host/thread_pool.h"
+#include "host/touch/cells/certified_occupancy.h"
+#include "voxtact/cpu.h"
+
+namespace voxtact::cpu {
+
+using CertifiedOccupancies = OccupancyCache<CertifiedOccupancy, 2>;
+
+/// The answers of a checked batch in the projection `certified`. What they say of a call that is cancelled means
+/// nothing.
+[[nodiscard]] BatchAnswer runCertified(const Batch& batch, const Cancellation& cancel, std::uint32_t pairs,
+                                       const Count& desc, ThreadPool& pool, CertifiedOccupancies& occupancies);
+
+} // namespace voxtact::cpu

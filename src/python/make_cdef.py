@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: MIT
+"""Makes voxtact/_cdef.py, what cffi knows of the C interface, from its headers.
+
+usage: make_cdef.py OUTPUT HEADER...
+"""
+import re
+import sys
+
+import cffi
+
+# What the headers take from Vulkan's. Handles are pointers on every machine of 64 bits.
+HANDLES = ("VkInstance VkPhysicalDevice VkDevice VkQueue VkCommandBuffer VkPipelineCache VkImageView VkBuffer "
+           "VkQueryPool").split()
+STRUCTS = "VkPhysicalDeviceFeatures2 VkAllocationCallbacks".split()
+NUMBERS = "VkFormat VkImageLayout VkIndexType".split()
+VULKAN = "\n".join([*(f"typedef struct {name}_T* {name};" for name in HANDLES),
+                    *(f"typedef struct {name} {name};" for name in STRUCTS),
+                    *(f"typedef int32_t {name};" for name in NUMBERS),
+                    "typedef uint64_t VkDeviceSize;",
+                    "typedef void* PFN_vkGetInstanceProcAddr;",
+                    "typedef struct VkOffset2D { int32_t x; int32_t y; } VkOffset2D;",
+                    "typedef struct VkExtent2D { uint32_t width; uint32_t height; } VkExtent2D;",
+                    "typedef struct VkRect2D { VkOffset2D offset; VkExtent2D extent; } VkRect2D;"])
+
+
+def declarations(header):
+    """Types and functions, without comments, preprocessor and inline functions."""
+    text = re.sub(r"//[^\n]*|/\*.*?\*/", "", header, flags=re.DOTALL)
+    text = re.sub(r"^#ifdef __cplusplus\n.*?^#endif\n", "", text, flags=re.MULTILINE | re.DOTALL)
+    text = re.sub(r"^#(?:.*\\\n)*.*\n", "", text, flags=re.MULTILINE)
+    text = re.sub(r"^static inline .*?^}\n", "", text, flags=re.MULTILINE | re.DOTALL)
+    text = re.sub(r"\bVXT_(API|CHECKED)\s+", "", text)
+    return re.sub(r"\n\s*\n+", "\n", text)
+
+
+def main():
+    output, *headers = sys.argv[1:]
+    made = cffi.FFI()
+    made.set_source("voxtact._cdef", None)
+    texts = [open(header, encoding="utf-8").read() for header in headers]
+    made.cdef("\n".join([VULKAN, *map(declarations, texts)]))
+    made.emit_python_code(output)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,457 @@
+# SPDX-License-Identifier: MIT
+"""Scenes and trackers over the library: what is asked goes to the host's side or to the device's, in pieces."""
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+from typing import Any, Optional
+
+import numpy as np
+import numpy.typing as npt
+
+from ._device_side import DeviceSide
+from ._errors import InvalidArgumentError, NotReadyError
+from ._handles import Device, Labels, Mesh, Volume
+from ._host_side import FEW_TRIANGLES, HostSide, check_on_host
+from ._library import CData, check, ffi, forks, lib, made, matrix, named, not_zero, pointer, refuse, struct, vector
+from ._request import PROJECTIONS, Opacity, Question, Request, TouchQuestion
+from ._tables import SingleTables, Tables
+from ._turns import Tell, Turns, in_pieces, in_turn
+from ._wish import PictureWish
+
+#: Triangles that a first piece may look at: some milliseconds; and the poses that it has at most, as one triangle may
+#: go through all of the volume. A device, which cannot be interrupted, gets fewer; the host one for each thread at
+#: least.
+_FIRST_TRIANGLES = 2**20
+_FIRST_ON_HOST = 64
+_FIRST_ON_DEVICE = 8
+#: Distances take that many times as long.
+_DISTANCE_COST = 16
+_MAX_HOST_PAIRS = 2**20
+#: Of warnings: of who calls a method of the package.
+_CALLER = 4
+_MAX_QUESTIONS = 64
+
+#: margin, distance and angle of the uncertainty, witness, resolution, max_steps; 0: the default
+TouchOptions = tuple[float, float, float, bool, float, int]
+
+INTERPOLATIONS = ("screw", "slerp")
+
+
+def _first_piece(request: Request, cost: int, most: int) -> int:
+    return int(max(min(_FIRST_TRIANGLES // (request.max_triangles * cost), most), 1))
+
+
+def _check_threshold(threshold: float) -> None:
+    if not 0 <= threshold <= 1:
+        refuse(f"threshold is {threshold:g}; it must be from 0 to 1")
+
+
+def _warn_of_opacity(volume: Volume, opacity: Opacity, threshold: float, who: str) -> None:
+    """Where nothing is opaque. `who`: the argument that the points are from."""
+    reaches, some = opacity.facts(volume, threshold)
+    lo, hi = volume.range
+    if not reaches:
+        warnings.warn(f"{who}: none reaches the threshold {threshold:g}: nothing touches", stacklevel=_CALLER)
+    elif not some:
+        values = f"{lo:g} to {hi:g}" if lo < hi else f"{lo:g}"
+        warnings.warn(f"{who}: none of the volume's values, {values}, is opaque: nothing touches", stacklevel=_CALLER)
+
+
+def _label_members(labels: Optional[list[int]]) -> dict[str, Any]:
+    """No labels at all are a list, too: the pointer is not null."""
+    return {} if labels is None else {"labels": ffi.new("int32_t[]", labels or 1), "label_count": len(labels)}
+
+
+def _check_ways(request: Request, interpolation: int) -> None:
+    """Refuses an item of fewer than two poses, and two poses that no rigid motion joins. All are looked at before any
+    work, which counts from the first pose of each piece."""
+    found = ffi.new("double[16]")
+    for number, item in enumerate(request.of):
+        which = "" if len(request.of) == 1 else f"item {number}: "
+        poses = len(item.columns)
+        if poses < 2:
+            refuse(f"{which}the number of poses is {poses}, a motion needs two or more: (N,4,4)")
+        centre = np.mean(item.mesh.bounds, axis=0).tolist()
+        for pose in range(poses - 1):
+            first = item.data + 16 * pose
+            try:
+                check(lib.vxt_pose_between(first, first + 16, 0.0, interpolation, centre, found))
+            except InvalidArgumentError as error:
+                raise InvalidArgumentError(f"{which}poses {pose} and {pose + 1}: {error}") from None
+
+
+def poses_between(first: npt.NDArray[np.float64], last: npt.NDArray[np.float64], parameters: npt.NDArray[np.float64],
+                  interpolation: bytes, centre: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    """(T,4,4) for T parameters."""
+    begin, end = matrix(first, "the first pose"), matrix(last, "the second pose")
+    middle, how = vector(centre, "centre"), _interpolation(interpolation)
+    poses = np.empty((len(parameters), 4, 4))
+    for pose, parameter in zip(poses, parameters):
+        check(lib.vxt_pose_between(begin, end, parameter, how, middle, pointer("double", pose)))
+    return poses.transpose(0, 2, 1).copy()
+
+
+def _interpolation(name: bytes) -> int:
+    return named(name.decode("utf-8", "surrogateescape"), "interpolation", INTERPOLATIONS)
+
+
+class Scene:
+    """What `voxtact.Scene` is thin on: it has neither checks nor promises."""
+
+    __slots__ = ("_turns", "_volume", "_labels", "_device", "_threads", "_opacity", "threshold", "revision", "_host", "_on_device",
+                 "_born", "_edited", "_open", "_questions", "_touches", "__weakref__")
+
+    def __init__(self, volume: Volume, points: Optional[npt.NDArray[np.float64]], domain: Optional[tuple[float, float]],
+                 table_size: int, threshold: float, labels: Optional[Labels], device: Optional[Device], threads: int) -> None:
+        self._opacity = Opacity(volume, points, domain, table_size)
+        _warn_of_opacity(volume, self._opacity, threshold, "opacity")
+        _check_threshold(threshold)
+        self._turns = Turns()
+        self._volume = volume
+        self._labels = labels
+        self._device = device
+        self._threads = threads
+        self.threshold = threshold
+        self.revision = 0
+        self._host: Optional[HostSide] = None
+        self._on_device: Optional[DeviceSide] = None
+        self._born = -1
+        self._edited = False
+        self._open = True
+        self._questions: dict[Any, Question] = {}
+        self._touches: dict[TouchOptions, TouchQuestion] = {}
+        self._begin()
+
+    @in_turn
+    def _begin(self) -> None:
+        """Makes the side that the scene is on, and the host's engine."""
+        if self._device is not None:
+            self._device_side(self._device)
+        else:
+            _ = self._host_side().engine
+
+    # What it has
+
+    @property
+    def opacity(self) -> npt.NDArray[np.float64]:
+        return self._opacity.points.copy()
+
+    @property
+    def domain(self) -> tuple[float, float]:
+        return self._opacity.domain
+
+    @property
+    def table_size(self) -> int:
+        return self._opacity.table_size
+
+    def _check_open(self) -> None:
+        if not self._open:
+            raise NotReadyError("the scene is closed; make a new one")
+
+    def _host_side(self) -> HostSide:
+        self._check_open()
+        if self._host is None:
+            self._host = HostSide(self._volume, self._opacity, self._threads, self._labels, self._turns.cancel)
+        return self._host
+
+    def _device_side(self, device: Device) -> DeviceSide:
+        self._check_open()
+        if self._on_device is not None and self._born != forks():
+            if self._device is not None:
+                _ = self._device.context  # says why not
+            self._on_device = None
+        if self._on_device is None:
+            view, now = self._volume.view, None
+            if self._edited:
+                now = self._host_side().voxels()
+                view = struct("volume_view", voxels=pointer("char", now.reshape(-1).view(np.uint8)), bytes=now.nbytes, grid=view.grid,
+                              type=view.type)
+            self._on_device = DeviceSide(device, self._volume, view, self._opacity, self._labels, self._turns.cancel)
+            self._born = forks()
+        return self._on_device
+
+    def _own_device_side(self) -> Optional[DeviceSide]:
+        """That of this process, where there is one."""
+        return self._on_device if self._born == forks() else None
+
+    # Changes
+
+    def set_opacity(self, points: Optional[npt.NDArray[np.float64]], domain: Optional[tuple[float, float]], table_size: int) -> None:
+        opacity = Opacity(self._volume, points, domain, table_size)
+        _warn_of_opacity(self._volume, opacity, self.threshold, "opacity")
+        self._set_opacity(opacity)
+
+    @in_turn
+    def _set_opacity(self, opacity: Opacity) -> None:
+        self._check_open()
+        there = self._own_device_side()
+        if self._host is not None:
+            self._host.set_opacity(opacity)
+        if there is not None:
+            there.set_opacity(opacity)
+        self._opacity = opacity
+        self.revision += 1
+
+    def set_threshold(self, threshold: float) -> None:
+        _check_threshold(threshold)
+        self._set_threshold(threshold)
+
+    @in_turn
+    def _set_threshold(self, threshold: float) -> None:
+        self._check_open()
+        self.threshold = threshold
+        self.revision += 1
+
+    @in_turn
+    def _edit(self, edit: str, *arguments: Any) -> None:
+        host = self._host_side()
+        there = self._own_device_side()
+        # The device first: both refuse the same edits, and it has more reasons to fail.
+        if there is not None:
+            getattr(there, edit)(*arguments)
+        getattr(host, edit)(*arguments)
+        self._edited = True
+        self.revision += 1
+
+    def set_ball(self, centre: npt.NDArray[np.float64], radius: float, value: float) -> None:
+        self._edit("set_ball", vector(centre, "the ball's centre"), radius, value)
+
+    def set_box(self, first: Sequence[int], size: Sequence[int], value: float) -> None:
+        self._edit("set_box", ffi.new("vxt_voxel_box*", {"first": first, "size": size}), value)
+
+    def write_box(self, first: Sequence[int], voxels: npt.NDArray[Any]) -> None:
+        """`voxels`: z, y, x, of the volume's type and in C order."""
+        self._edit("write", ffi.new("vxt_voxel_box*", {"first": first, "size": list(reversed(voxels.shape))}), voxels)
+
+    # Questions about pairs
+
+    def _question(self, options: dict[str, Any]) -> Question:
+        """That of these options, which is kept; a view is not."""
+        if "view" in options:
+            return Question(options)
+        key = tuple(options.items())
+        question = self._questions.get(key)
+        if question is None:
+            question = Question(options)
+            if len(self._questions) < _MAX_QUESTIONS:
+                self._questions[key] = question
+        return question
+
+    def _touch_question(self, options: TouchOptions) -> TouchQuestion:
+        """That of these options, which is kept."""
+        question = self._touches.get(options)
+        if question is None:
+            question = TouchQuestion(*options)
+            if len(self._touches) < _MAX_QUESTIONS:
+                self._touches[options] = question
+        return question
+
+    def _answered(self, request: Request, question: Question, progress: Tell) -> Tables:
+        if question.outputs & lib.VXT_OUTPUT_LABELS and self._labels is None:
+            refuse("labels of what touches need a scene with labels=")
+        tables = Tables("count", request.lengths(), PROJECTIONS[question.projection], question.outputs, question.max_contacts,
+                        question.counters, (request, question, self.revision))
+        side: Any
+        if self._device is not None:
+            side = self._device_side(self._device)
+            first, most = _first_piece(request, 1, _FIRST_ON_DEVICE), side.max_pairs(request, question)
+        else:
+            check_on_host(question)
+            side = self._host_side()
+            first, most = self._first_on_host(request, 1), _MAX_HOST_PAIRS
+        if request.pairs == 0:
+            tables.add(0, side.count(question, request, 0, 0, self.threshold))
+        self._in_pieces(request, request.pairs, first, most, progress,
+                        lambda begin, count: tables.add(begin, side.count(question, request, begin, count, self.threshold)))
+        return tables
+
+    def _first_on_host(self, request: Request, cost: int) -> int:
+        return max(_first_piece(request, cost, _FIRST_ON_HOST), self._host_side().threads)
+
+    @staticmethod
+    def _in_pieces(request: Request, total: int, first: int, most: int, progress: Tell, work: Any) -> None:
+        try:
+            in_pieces(total, first, most, progress, work)
+        except InvalidArgumentError:
+            request.check()  # a pose of a request of one is looked at by the engine alone
+            raise
+
+    @in_turn
+    def _count(self, request: Request, question: Question, progress: Tell) -> Tables:
+        self._check_open()
+        return self._answered(request, question, progress)
+
+    def count(self, meshes: Any, poses: Any, options: dict[str, Any], progress: Tell) -> Tables:
+        return self._count(Request(meshes, poses), self._question(options), progress)
+
+    @in_turn
+    def _touch_of_one(self, mesh: Mesh, place: bytes, question: TouchQuestion) -> Tables:
+        host = self._host
+        if host is None or not self._open:
+            host = self._host_side()
+        return SingleTables(*host.touch(question.touch, mesh, place, self.threshold))
+
+    @in_turn
+    def _touch(self, request: Request, question: TouchQuestion, progress: Tell) -> Tables:
+        side = self._host_side()
+        tables = Tables("touch", request.lengths())
+
+        def work(first: int, count: int) -> None:
+            tables.add(first, side.touches(question, request, first, count, self.threshold))
+
+        if request.pairs == 0:
+            work(0, 0)
+        first = self._first_on_host(request, 1 if question.is_plain else _DISTANCE_COST)
+        self._in_pieces(request, request.pairs, first, _MAX_HOST_PAIRS, progress, work)
+        return tables
+
+    def touch(self, meshes: Any, poses: Any, options: TouchOptions, progress: Tell) -> Tables:
+        question = self._touch_question(options)
+        if self._device is not None and question.is_plain:
+            return self.count(meshes, poses, question.count_options, progress)
+        if (question.is_plain and progress is None and type(meshes) is Mesh and meshes.triangles <= FEW_TRIANGLES
+                and poses.shape == (4, 4)):
+            try:
+                return self._touch_of_one(meshes, poses.tobytes("F"), question)
+            except InvalidArgumentError:
+                Request(meshes, poses).check()
+                raise
+        return self._touch(Request(meshes, poses), question, progress)
+
+    @in_turn
+    def again(self, asked: Any, output: str) -> Optional[Tables]:
+        """The same with an output; nothing where the scene has changed. `asked`: `Tables.again`."""
+        self._check_open()
+        request, question, revision = asked
+        if revision != self.revision:
+            return None
+        return self._answered(request, question.again(output), None)
+
+    @in_turn
+    def engine_seconds(self, meshes: Any, poses: Any, times: int) -> list[float]:
+        """Of the host engine, for one call of touch each: for benchmarks."""
+        request, question, side = Request(meshes, poses), TouchQuestion(), self._host_side()
+        seconds: list[float] = []
+        for _ in range(times):
+            tables = Tables("touch", ())
+            tables.add(0, side.touches(question, request, 0, request.pairs, self.threshold))
+            seconds.append(tables.milliseconds / 1000)
+        return seconds
+
+    @in_turn
+    def _measured(self, kind: str, question: CData, request: Request, cost: int, progress: Tell) -> Tables:
+        """Of questions that the host engine alone answers."""
+        side = self._host_side()
+        ask = getattr(lib, f"vxt_ask_{kind}")
+        is_motion = kind == "motion"
+        tables = Tables(kind, request.lengths(is_motion))
+        total, part = (request.segments, request.part_of_segments) if is_motion else (request.pairs, request.part)
+
+        def work(first: int, count: int) -> None:
+            tables.add(first, side.ask(ask, question, list(part(first, count)), self.threshold))
+
+        if total == 0:
+            work(0, 0)
+        self._in_pieces(request, total, self._first_on_host(request, cost), _MAX_HOST_PAIRS, progress, work)
+        return tables
+
+    def distance(self, meshes: Any, poses: Any, tolerance: float, max_distance: float, max_steps: int, labels: Optional[list[int]],
+                  any_opacity: bool, progress: Tell) -> Tables:
+        request = Request(meshes, poses)
+        not_zero(tolerance, "distance", "tolerance")
+        not_zero(max_distance, "distance", "max")
+        wanted = _label_members(labels)
+        question = struct("distance", tolerance=tolerance, max=max_distance, max_steps=max_steps, any_opacity=any_opacity, **wanted)
+        cost = _DISTANCE_COST * (1 if labels is None else 1 + len(labels))
+        return self._measured("distance", question, request, cost, progress)
+
+    def area(self, meshes: Any, poses: Any, tolerance: float, max_steps: int, labels: Optional[list[int]], by_triangle: bool,
+             progress: Tell) -> Tables:
+        request = Request(meshes, poses)
+        not_zero(tolerance, "area", "tolerance")
+        wanted = _label_members(labels)
+        question = struct("area", tolerance=tolerance, max_steps=max_steps, triangles=by_triangle, **wanted)
+        return self._measured("area", question, request, _DISTANCE_COST, progress)
+
+    def overlap(self, meshes: Any, poses: Any, tolerance: Optional[float], max_steps: int, bands: Optional[list[float]],
+                labels: Optional[list[int]], progress: Tell) -> Tables:
+        request = Request(meshes, poses)
+        wanted = _label_members(labels)
+        if bands is not None:
+            wanted.update(band_limits=ffi.new("double[]", bands), band_limit_count=len(bands))
+        if tolerance is not None:
+            wanted["tolerance"] = not_zero(tolerance, "overlap", "tolerance")
+        question = struct("overlap", max_steps=max_steps, **wanted)
+        cost = _DISTANCE_COST * (1 + len(labels or ()) + len(bands or ()))
+        return self._measured("overlap", question, request, cost, progress)
+
+    def motion(self, meshes: Any, poses: Any, interpolation: bytes, resolution: float, max_steps: int, progress: Tell) -> Tables:
+        request, how = Request(meshes, poses), _interpolation(interpolation)
+        request.check()
+        _check_ways(request, how)
+        not_zero(resolution, "motion", "resolution")
+        question = struct("motion", interpolation=how, resolution=resolution, max_steps=max_steps)
+        return self._measured("motion", question, request, _DISTANCE_COST, progress)
+
+    # Others
+
+    def plan(self, target: npt.NDArray[np.float64], wish: dict[str, Any], avoided: Optional[Volume],
+             points: Optional[npt.NDArray[np.float64]], domain: Optional[tuple[float, float]]) -> Tables:
+        """wish: members of vxt_plan by their names in C, and `avoid`, labels."""
+        opaque = None
+        if points is not None:
+            volume = self._volume if avoided is None else avoided
+            opaque = Opacity(volume, points, domain, self.table_size)
+            _warn_of_opacity(volume, opaque, self.threshold, "avoid_opacity")
+        return self._plan(dict(wish, target=vector(target, "target")), avoided, opaque)
+
+    @in_turn
+    def _plan(self, wish: dict[str, Any], avoided: Optional[Volume], opaque: Optional[Opacity]) -> Tables:
+        tables = Tables("plan", ())
+        tables.add(0, self._host_side().plan(wish, avoided, opaque, self.threshold))
+        return tables
+
+    def picture(self, meshes: Any, poses: Any, options: dict[str, Any], device: Optional[Device]) -> npt.NDArray[np.uint8]:
+        wish = PictureWish(self._volume, meshes, poses, options)
+        return self._picture(wish, device)
+
+    @in_turn
+    def _picture(self, wish: PictureWish, device: Optional[Device]) -> npt.NDArray[np.uint8]:
+        self._check_open()
+        on = self._device if self._device is not None else device
+        assert on is not None
+        return self._device_side(on).picture(wish, self._opacity, self.threshold)
+
+    @in_turn
+    def track(self, tracker: CData, mesh: Mesh, place: CData, tracked: CData) -> None:
+        """Of one pose."""
+        item = self._host_side().item(mesh, place, 1)
+        check(lib.vxt_tracker_track(tracker, ffi.addressof(item), self.threshold or -0.0, tracked))
+
+    @in_turn
+    def close(self) -> None:
+        self._open = False
+        self._host = None
+        self._on_device = None
+
+
+class Tracker:
+    """A mesh that moves by little from call to call."""
+
+    __slots__ = ("_scene", "_mesh", "_handle")
+
+    def __init__(self, scene: Scene, mesh: Mesh, max_distance: float, resolution: float, max_steps: int) -> None:
+        not_zero(max_distance, "distance", "max")
+        not_zero(resolution, "count", "resolution")
+        self._scene = scene
+        self._mesh = mesh
+        self._handle = made("tracker", lib.vxt_tracker_create, max_distance, resolution, max_steps)
+
+    def update(self, pose: npt.NDArray[np.float64]) -> tuple[bool, bool, float, float, bool]:
+        """Touches, undecided, the bounds, and whether the volume was searched."""
+        place, tracked = ffi.new("double[16]", matrix(pose, "pose")), struct("tracked")
+        self._scene.track(self._handle, self._mesh, place, tracked)
+        return tracked.touch == 1, tracked.touch == 2, tracked.lower, tracked.upper, bool(tracked.searched)
+
+

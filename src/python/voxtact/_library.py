@@ -1,0 +1,273 @@
+# SPDX-License-Identifier: MIT
+"""The shared library of the C interface: its place, its errors, and the memory that it shares with numpy."""
+from __future__ import annotations
+
+import os
+import threading
+from collections.abc import Callable
+from typing import Any, NoReturn, Optional
+
+import numpy as np
+import numpy.typing as npt
+
+from ._cdef import ffi as _ffi
+from ._errors import Error, InvalidArgumentError, exception
+
+#: An object of cffi, which has no types.
+CData = Any
+ffi: Any = _ffi
+
+
+def _load() -> Any:
+    """Loads the library beside this file, or the one that VOXTACT_LIBRARY names; it stays loaded to the end of the
+    process, because objects may outlive modules."""
+    place = os.environ.get("VOXTACT_LIBRARY") or os.path.join(os.path.dirname(__file__), "libvoxtact.so")
+    try:
+        return ffi.dlopen(place, ffi.RTLD_NOW | ffi.RTLD_LOCAL | getattr(ffi, "RTLD_NODELETE", 0))
+    except OSError as error:
+        raise ImportError(f"the library of voxtact cannot be loaded: {error}") from None
+
+
+lib = _load()
+NULL: CData = ffi.NULL
+
+
+# Errors
+
+
+def failure(result: int) -> Error:
+    """The exception of a vxt_result, with the calling thread's last error."""
+    return exception(result, text_of(lib.vxt_last_error(NULL)), int(lib.vxt_last_vk_result(NULL)))
+
+
+def check(result: int) -> None:
+    """Raises what a call of the library has refused."""
+    if result:
+        raise failure(result)
+
+
+def refuse(text: str) -> NoReturn:
+    raise InvalidArgumentError(text)
+
+
+# Texts and structs
+
+
+def text_of(chars: CData) -> str:
+    """Bytes that are not UTF-8 become surrogate escapes, as in Python's names of files."""
+    made: str = ffi.string(chars).decode("utf-8", "surrogateescape")
+    return made
+
+
+def texts_of(get: Callable[[int], CData]) -> list[str]:
+    """Those that a function gives by their numbers, up to a null."""
+    texts: list[str] = []
+    while chars := get(len(texts)):
+        texts.append(text_of(chars))
+    return texts
+
+
+def struct(kind: str, **members: Any) -> CData:
+    """A new struct that begins with struct_size."""
+    made = ffi.new(f"vxt_{kind}*", members)
+    made.struct_size = ffi.sizeof(f"vxt_{kind}")
+    return made
+
+
+def structs(kind: str, count: int) -> CData:
+    """An array of zeros, each with its struct_size."""
+    made = ffi.new(f"vxt_{kind}[]", count)
+    for one in made:
+        one.struct_size = ffi.sizeof(f"vxt_{kind}")
+    return made
+
+
+# Objects
+
+#: how often this process is the child of a fork since the library was loaded
+_forks = 0
+#: What has threads or is on a device, by its address: how it ends, and what it was made with. A child of a fork does not
+#: know what is its parent's, and does not end it: it would wait for threads that are not there.
+_bound: dict[int, tuple[Callable[[CData], None], CData, tuple[int, ...]]] = {}
+_uses: dict[int, int] = {}
+_waiting: set[int] = set()
+_ending = threading.RLock()
+_leaks = False
+
+
+def forks() -> int:
+    return _forks
+
+
+def _after_fork() -> None:
+    global _forks, _ending
+    _forks += 1
+    _ending = threading.RLock()
+    for known in (_bound, _uses, _waiting):
+        known.clear()  # type: ignore[attr-defined]
+
+
+def leak() -> None:
+    """From now on nothing bound is ended: the process ends, and modules and garbage go in any order."""
+    global _leaks
+    _leaks = True
+    _bound.clear()
+
+
+os.register_at_fork(after_in_child=_after_fork)
+
+
+def _address(handle: CData) -> int:
+    return int(ffi.cast("uintptr_t", handle))
+
+
+def _end(address: int) -> None:
+    """Ends an object, or lets it wait for those that were made with it: garbage goes in any order."""
+    if address not in _bound:
+        return
+    if _uses.get(address):
+        _waiting.add(address)
+        return
+    destroy, handle, parents = _bound.pop(address)
+    destroy(handle)
+    for parent in parents:
+        _uses[parent] -= 1
+        if parent in _waiting and not _uses[parent]:
+            _waiting.discard(parent)
+            _end(parent)
+
+
+def _end_of(handle: CData) -> None:
+    with _ending:
+        _end(_address(handle))
+
+
+def made(kind: str, create: Callable[..., int], *arguments: Any) -> CData:
+    """An object that is destroyed with the last reference to it. `create` puts a vxt_KIND* into its last argument."""
+    place = ffi.new(f"vxt_{kind}**")
+    check(create(*arguments, place))
+    return ffi.gc(place[0], getattr(lib, f"vxt_{kind}_destroy"))
+
+
+def made_with(parents: tuple[CData, ...], kind: str, create: Callable[..., int], *arguments: Any) -> CData:
+    """The same of what has threads or is on a device; its parents are destroyed later."""
+    place = ffi.new(f"vxt_{kind}**")
+    check(create(*arguments, place))
+    handle = place[0]
+    if _leaks:
+        return handle
+    with _ending:
+        those = tuple(map(_address, parents))
+        for parent in those:
+            _uses[parent] = _uses.get(parent, 0) + 1
+        _uses[_address(handle)] = 0
+        _bound[_address(handle)] = getattr(lib, f"vxt_{kind}_destroy"), handle, those
+    return ffi.gc(handle, _end_of)
+
+
+# Arrays
+
+
+def shown(data: CData, shape: tuple[int, ...], dtype: npt.DTypeLike, owner: Any) -> npt.NDArray[Any]:
+    """An array over memory of the library, which keeps the memory's owner."""
+    kind = np.dtype(dtype)
+    size = kind.itemsize
+    for length in shape:
+        size *= length
+    if size == 0:
+        return np.empty(shape, kind)
+    kept = ffi.gc(ffi.cast("char*", data), lambda _, _owner=owner: None)
+    return np.frombuffer(ffi.buffer(kept, size), kind).reshape(shape)
+
+
+def copied(data: CData, shape: tuple[int, ...], dtype: npt.DTypeLike = np.float64) -> npt.NDArray[Any]:
+    """A copy of memory of the library."""
+    made = np.empty(shape, dtype)
+    if made.size:
+        ffi.memmove(ffi.from_buffer(made), data, made.nbytes)
+    return made
+
+
+def read_only(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    array.setflags(write=False)
+    return array
+
+
+def pointer(kind: str, array: npt.NDArray[Any]) -> CData:
+    """The elements of a contiguous array, which the pointer keeps."""
+    return ffi.from_buffer(f"{kind}[]", array)
+
+
+def doubles(array: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    """Contiguous, and not copied where they are."""
+    return np.ascontiguousarray(array, dtype=np.float64)
+
+
+def shape_text(array: npt.NDArray[Any]) -> str:
+    return "(" + ",".join(map(str, array.shape)) + ")"
+
+
+def vector(array: npt.NDArray[np.float64], what: str) -> list[float]:
+    """Three numbers."""
+    if array.shape != (3,):
+        refuse(f"{what} has the shape {shape_text(array)}; (3,) is needed")
+    return [float(number) for number in array]
+
+
+def matrix(array: npt.NDArray[np.float64], what: str) -> list[float]:
+    """A matrix of (4,4) as the library takes it, column by column."""
+    if array.shape != (4, 4):
+        refuse(f"{what} has the shape {shape_text(array)}; (4,4) is needed")
+    return [float(number) for number in array.T.reshape(-1)]
+
+
+def matrix_of(columns: CData) -> npt.NDArray[np.float64]:
+    """The matrix of 16 doubles of the library."""
+    return copied(columns, (4, 4)).T.copy()
+
+
+def matrices_of(columns: CData, count: int) -> npt.NDArray[np.float64]:
+    return copied(columns, (count, 4, 4)).transpose(0, 2, 1).copy()
+
+
+def named(word: Any, what: str, names: tuple[str, ...]) -> int:
+    """The place of a name among those that there are."""
+    if not isinstance(word, str):
+        raise TypeError(f"{what} cannot be {word!r}")
+    if word not in names:
+        refuse(f"{what} '{word}' is none of {', '.join(names)}")
+    return names.index(word)
+
+
+# Facts
+
+
+class Fact:
+    """A number that a question takes: its default, and what else it may be."""
+
+    __slots__ = ("question", "name", "unit", "text", "range", "standard")
+
+    def __init__(self, index: int) -> None:
+        fact = struct("fact")
+        check(lib.vxt_fact_get(index, fact))
+        self.question, self.name, self.unit, self.text, self.range = (
+            text_of(chars) for chars in (fact.question, fact.name, fact.unit, fact.text, fact.range))
+        self.standard: Optional[float] = float(fact.standard) if fact.has_standard else None
+
+
+FACTS: dict[tuple[str, str], Fact] = {(fact.question, fact.name): fact for fact in map(Fact, range(lib.vxt_fact_count()))}
+
+
+def standard(question: str, name: str) -> float:
+    """The default of a number."""
+    number = FACTS[question, name].standard
+    assert number is not None
+    return number
+
+
+def not_zero(number: float, question: str, name: str) -> float:
+    """Refuses the 0 that stands for the default in the library, in its words."""
+    if number == 0:
+        fact = FACTS[question, name]
+        refuse(f"the {name.replace('_', ' ')} 0{' ' * bool(fact.unit)}{fact.unit} is not a number {fact.range}")
+    return number

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: MIT
+"""Questions about many poses, over the workers of a Dask cluster.
+
+    from dask.distributed import Client
+    from voxtact.dask import ask
+
+    def scene():                                       # a worker calls it once
+        return vx.Scene("head.nii.gz", opacity=[(40, 0), (80, 1)], threads=1)
+
+    with Client("tcp://scheduler:8786") as client:
+        answer = ask("touch", scene, knife, poses, client, margin=2)
+
+Scenes cannot be sent: each worker makes its own. What is sent are meshes, poses and answers.
+"""
+from __future__ import annotations
+
+import copy
+import functools
+from collections.abc import Callable
+from typing import Any, Literal, Optional, cast, get_args
+
+import numpy as np
+
+from ._answer import Area, Count, Distance, Overlap, Touch
+from ._arguments import Poses, count_of
+from ._common import numbers, whole_number
+from ._errors import InvalidArgumentError
+from ._mesh import Mesh
+from ._motion import Motion
+from ._scene import Scene
+from ._tables import Tables
+
+Question = Literal["touch", "count", "distance", "area", "overlap", "motion"]
+
+#: A smaller task costs more to send than to answer.
+PER_TASK = 100_000
+
+
+@functools.lru_cache(maxsize=4)
+def _kept_scene(make: Callable[[], Scene]) -> Scene:
+    return make()
+
+
+def _part(question: str, make: Callable[[], Scene], mesh: Mesh, poses: Any, options: dict[str, Any]) -> Any:
+    """What a worker does."""
+    return getattr(_kept_scene(make), question)(mesh, poses, **options)
+
+
+def ask(question: Question, scene_factory: Callable[[], Scene], mesh: Mesh,
+        poses: Poses, client: Optional[Any] = None, *, per_task: int = PER_TASK, **options: Any) -> Any:
+    """Answers like `Scene.QUESTION(mesh, poses, **options)`, row for row, by the workers of a cluster.
+
+    scene_factory
+        makes the scene; a worker calls it once. A function of a module, or what else Dask can send
+    client
+        of dask.distributed; None: the current one
+    per_task
+        poses of a task
+    options
+        of the question. Later requests of outputs are refused: `count(contacts=True)` requests contacts
+
+    Each pose is answered for itself: pieces change nothing. Raises what the question raises; a pose that is none is named
+    by its number in its task.
+    """
+    if client is None:
+        from dask.distributed import get_client
+
+        client = get_client()
+    if question not in get_args(Question):
+        raise InvalidArgumentError(f"question {question!r} is none of {', '.join(get_args(Question))}")
+    matrices = numbers(poses, "poses")
+    whole = matrices.reshape(-1, 4, 4) if matrices.shape[-2:] == (4, 4) else matrices
+    size = whole_number(per_task, "per_task", 1)
+    # A segment has both of its poses.
+    last, more = (count_of(whole) - 1, 1) if question == "motion" else (count_of(whole), 0)
+    there = client.scatter(mesh, broadcast=True) if last > size else mesh
+    tasks = [client.submit(_part, question, scene_factory, there, whole[first:min(first + size, last) + more], options, pure=False)
+             for first in range(0, max(last, 1), size)]
+    return _joined(client.gather(tasks))
+
+
+def _joined(parts: list[Any]) -> Any:
+    """The answer of all parts."""
+    joined = copy.copy(parts[0])
+    joined._tables = Tables.joined([part._tables for part in parts])
+    if isinstance(joined, Motion):
+        joined._impacts = np.concatenate([part.impacts for part in parts])
+    if isinstance(joined, Touch) and joined._with_witness:
+        joined._witness = np.concatenate([part.witness for part in parts])
+    return cast("Touch | Count | Distance | Area | Overlap | Motion", joined)

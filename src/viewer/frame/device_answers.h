@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "viewer/frame/device_scene.h"
+#include "voxtact/detector.h"
+
+#include <map>
+#include <mutex>
+
+namespace voxtact::view {
+
+/// The device's detectors, each made when it is first asked for. A detector stays where it is.
+/// Thread-safety: all functions are safe from any thread.
+class Detectors {
+  public:
+    Detectors(const Context& context, bool labels) : context_(&context), labels_(labels) {}
+
+    /// Null where it is not made yet.
+    [[nodiscard]] const Detector* find(const MethodChoice& method) const;
+    /// Makes it where it is not made yet, which takes its time.
+    [[nodiscard]] Result<const Detector*> get(const MethodChoice& method);
+
+  private:
+    using Key = std::pair<CountingMethod, Projection>;
+    const Context* context_;
+    bool labels_; ///< whether they count labels
+    mutable std::mutex mutex_;
+    std::map<Key, Detector> detectors_;
+};
+
+/// Answers of the device: recorded into a frame, and read when the frame is done.
+class DeviceAnswers {
+  public:
+    [[nodiscard]] static Result<DeviceAnswers> create(const device::Session& session, const DeviceScene& scene,
+                                                      std::shared_ptr<Detectors> detectors);
+    /// The ways to answer of this device, and of the host.
+    [[nodiscard]] static std::vector<MethodChoice> choices(const Context& context);
+
+    /// Whether record() finds a detector for it.
+    [[nodiscard]] bool ready(const MethodChoice& method) const { return detectors_->find(method) != nullptr; }
+    /// Into a frame whose slot's last use is done. Under DeviceScene::recording().
+    [[nodiscard]] Result<void> record(VkCommandBuffer commands, const DeviceScene& scene, const LiveQuestion& question,
+                                      std::uint32_t slot);
+    /// Of a slot's frame, which is done; nothing where it asked nothing.
+    [[nodiscard]] std::optional<Result<LiveAnswer>> collect(std::uint32_t slot, double wallMilliseconds);
+
+  private:
+    struct Asked {
+        std::uint64_t revision = 0;
+        std::vector<Instrument> instruments;
+    };
+    explicit DeviceAnswers(std::shared_ptr<Detectors> detectors) : detectors_(std::move(detectors)) {}
+
+    std::shared_ptr<Detectors> detectors_;
+    std::vector<Results> results_;
+    std::array<std::optional<Asked>, kFramesInFlight> asked_;
+};
+
+} // namespace voxtact::view

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "viewer/frame/resources.h"
+#include "viewer/model/shown/pace.h"
+
+#include <array>
+
+struct ImDrawData;
+
+namespace voxtact::view {
+
+/// What is drawn where panels show one of the textures.
+struct ShownTexture {
+    VkDescriptorSet panels = VK_NULL_HANDLE; ///< what they name
+    VkDescriptorSet drawn = VK_NULL_HANDLE;
+    SampledPart part;
+};
+
+/// Draws what Dear ImGui's panels made, by a pipeline of our own: dynamic rendering, no linked loader.
+class Gui {
+  public:
+    /// Of the current ImGui context, whose font is uploaded: submits, and waits.
+    [[nodiscard]] static Result<Gui> create(const device::Session& session, VkFormat format);
+
+    /// A texture for ImGui::Image(); what it shows is set later. At most 8 of them.
+    [[nodiscard]] Result<VkDescriptorSet> addTexture() { return drawing_.addTexture(); }
+    /// No frame with it may be in flight.
+    void setTexture(VkDescriptorSet texture, VkImageView view, VkImageLayout layout) const {
+        drawing_.textures.set(texture, view, layout);
+    }
+    /// Inside a rendering of the window's image. `slot`: of the frame; its last use is done. `picture`: which of the
+    /// pictures there is in this frame is not known before the panels are drawn.
+    [[nodiscard]] Result<void> record(VkCommandBuffer commands, const ImDrawData& data, std::uint32_t slot,
+                                      const ShownTexture& picture);
+
+  private:
+    explicit Gui(const device::VulkanDevice& device) : device_(&device) {}
+    [[nodiscard]] Result<void> uploadFont(const device::Session& session);
+    void place(VkCommandBuffer commands, const ImDrawData& data, const SampledPart& part) const;
+
+    const device::VulkanDevice* device_;
+    Drawing drawing_;
+    Image font_;
+    std::array<HostBuffer, kFramesInFlight> vertices_;
+    std::array<HostBuffer, kFramesInFlight> indices_;
+};
+
+} // namespace voxtact::view

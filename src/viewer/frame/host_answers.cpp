@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/frame/host_answers.h"
+
+#include "core/base/guard.h"
+#include "core/base/try.h"
+#include "core/method/method_table.h"
+
+namespace voxtact::view {
+
+namespace {
+
+double since(State::Clock::time_point begun) {
+    return std::chrono::duration<double, std::milli>(State::Clock::now() - begun).count();
+}
+
+} // namespace
+
+Result<std::unique_ptr<HostAnswers>> HostAnswers::create(const State& state, std::function<void()> wake) {
+    Result<cpu::HostEngine> engine = cpu::HostEngine::create();
+    VOXTACT_TRY(engine);
+    Result<cpu::Volume> volume = cpu::Volume::create(state.volume.view());
+    VOXTACT_TRY(volume);
+    std::vector<cpu::Mesh> meshes;
+    for (const MeshData& data : state.meshes) {
+        Result<cpu::Mesh> mesh = cpu::Mesh::create(data.view());
+        VOXTACT_TRY(mesh);
+        meshes.push_back(std::move(*mesh));
+    }
+    return std::unique_ptr<HostAnswers>(
+        new HostAnswers(std::move(*engine), std::move(*volume), std::move(meshes), state, std::move(wake)));
+}
+
+HostAnswers::HostAnswers(cpu::HostEngine engine, cpu::Volume volume, std::vector<cpu::Mesh> meshes, const State& state,
+                         std::function<void()> wake)
+    : engine_(std::move(engine)), volume_(std::move(volume)), meshes_(std::move(meshes)),
+      labels_(state.labels ? std::optional(state.labels->map) : std::nullopt), domain_(state.document.domain),
+      tableSize_(state.document.tableSize), view_(answerView(state.volume.grid)), wake_(std::move(wake)),
+      thread_([this] { work(); }) {}
+
+HostAnswers::~HostAnswers() {
+    {
+        const std::lock_guard lock(mutex_);
+        stop_ = true;
+        newer_ = true;
+    }
+    asked_.notify_one();
+    thread_.join();
+}
+
+void HostAnswers::ask(LiveQuestion question, const HoleWrites& writes) {
+    {
+        const std::lock_guard lock(mutex_);
+        const std::span<const HoleWrite> news = writes.from(written_);
+        writes_.insert(writes_.end(), news.begin(), news.end());
+        written_ = writes.end();
+        question_ = std::move(question);
+        newer_ = true;
+    }
+    asked_.notify_one();
+}
+
+void HostAnswers::compare(LiveQuestion question) {
+    {
+        const std::lock_guard lock(mutex_);
+        compare_ = std::move(question);
+    }
+    asked_.notify_one();
+}
+
+std::optional<Result<LiveAnswer>> HostAnswers::takeCompared() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(compared_, std::nullopt);
+}
+
+std::optional<Result<LiveAnswer>> HostAnswers::take() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(answer_, std::nullopt);
+}
+
+std::optional<Result<LiveClearance>> HostAnswers::takeClearance() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(clearance_, std::nullopt);
+}
+
+template <class Found> void HostAnswers::give(std::optional<Result<Found>>& to, Result<Found> found) {
+    const std::lock_guard lock(mutex_);
+    to = std::move(found);
+    if (!stop_) {
+        wake_();
+    }
+}
+
+void HostAnswers::work() {
+    while (true) {
+        LiveQuestion question;
+        std::vector<HoleWrite> writes;
+        bool compared = false;
+        {
+            std::unique_lock lock(mutex_);
+            asked_.wait(lock, [this] { return stop_ || question_ || compare_; });
+            if (stop_) {
+                return;
+            }
+            compared = !question_;
+            question = *std::exchange(compared ? compare_ : question_, std::nullopt);
+            writes = std::exchange(writes_, {});
+            newer_ = false;
+        }
+        if (compared) {
+            give(compared_, guard([&] { return answer(question, newer_); }));
+        } else {
+            follow(question, writes);
+        }
+    }
+}
+
+/// The live question: the volume becomes its own first.
+void HostAnswers::follow(const LiveQuestion& question, const std::vector<HoleWrite>& writes) {
+    for (const HoleWrite& write : writes) {
+        if (const Result<void> written = volume_.write(write.hole->box, write.voxels()); !written.ok()) {
+            give(clearance_, Result<LiveClearance>(written.error()));
+        }
+    }
+    if (rowOf(question.method.count).host) {
+        give(answer_, guard([&] { return answer(question, stop_); }));
+    }
+    const Result<LiveClearance> clearance = guard([&] { return measure(question); });
+    give(clearance_, clearance);
+    if (!clearance.ok()) {
+        return;
+    }
+    Result<LiveClearance> all = guard([&] { return withAreas(question, *clearance); });
+    if (all.ok() || all.error().code != ErrorCode::Cancelled) {
+        give(clearance_, std::move(all));
+    }
+}
+
+Result<cpu::Batch> HostAnswers::batchOf(const LiveQuestion& question, const std::atomic<bool>& cancel) {
+    if (!function_ || !sameCurve(functionOf_, question.edit.curve)) {
+        Result<cpu::TransferFunction> made = cpu::TransferFunction::create({question.edit.curve, domain_, tableSize_});
+        VOXTACT_TRY(made);
+        function_ = std::move(*made);
+        functionOf_ = question.edit.curve;
+    }
+    const std::vector<Instrument>& instruments = question.edit.instruments;
+    poses_.clear();
+    for (const Instrument& instrument : instruments) {
+        poses_.push_back(instrument.world_from_object);
+    }
+    items_.clear();
+    for (std::size_t i = 0; i < instruments.size(); ++i) {
+        const cpu::Mesh& mesh = meshes_[instruments[i].mesh];
+        items_.push_back({&mesh, &volume_, &*function_, {&poses_[i], 1}, labels_ ? &*labels_ : nullptr});
+    }
+    cpu::Batch batch;
+    batch.items = items_;
+    batch.view = view_;
+    batch.threshold = question.edit.threshold;
+    batch.cancel = &cancel;
+    return batch;
+}
+
+Result<LiveAnswer> HostAnswers::answer(const LiveQuestion& question, const std::atomic<bool>& cancel) {
+    const auto begun = State::Clock::now();
+    const Result<cpu::Batch> batch = batchOf(question, cancel);
+    VOXTACT_TRY(batch);
+    Result<BatchAnswer> found =
+        engine_.ask(Count{.projection = question.method.projection,
+                          .outputs = {.triangles = true, .contacts = true, .labels = labels_.has_value()}},
+                    *batch);
+    VOXTACT_TRY(found);
+    return liveAnswer(std::move(*found), question.revision, question.edit.instruments, since(begun));
+}
+
+Result<LiveClearance> HostAnswers::measure(const LiveQuestion& question) {
+    const auto begun = State::Clock::now();
+    const Result<cpu::Batch> batch = batchOf(question, newer_);
+    VOXTACT_TRY(batch);
+    const Result<DistanceAnswer> found = engine_.ask(Distance{}, *batch);
+    VOXTACT_TRY(found);
+    LiveClearance out{question.revision, {}, since(begun)};
+    for (std::size_t i = 0; i < found->pairs.size(); ++i) {
+        out.meshes.push_back({question.edit.instruments[i].mesh, found->pairs[i], {}});
+    }
+    return out;
+}
+
+Result<LiveClearance> HostAnswers::withAreas(const LiveQuestion& question, LiveClearance clearance) {
+    const auto begun = State::Clock::now();
+    const Result<cpu::Batch> batch = batchOf(question, newer_);
+    VOXTACT_TRY(batch);
+    const Result<AreaAnswer> found = engine_.ask(Area{}, *batch);
+    VOXTACT_TRY(found);
+    for (std::size_t i = 0; i < found->pairs.size(); ++i) {
+        clearance.meshes[i].area = found->pairs[i];
+    }
+    clearance.milliseconds += since(begun);
+    return clearance;
+}
+
+} // namespace voxtact::view

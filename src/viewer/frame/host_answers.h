@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "viewer/state.h"
+#include "voxtact/cpu.h"
+
+#include <atomic>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+namespace voxtact::view {
+
+/// Answers of the host engine, clearances and areas, on a thread of its own: of several questions the last is answered.
+/// What is being measured gives way to a new question, and so does a comparison.
+class HostAnswers {
+  public:
+    /// Copies what it needs of the state. `wake`: called from its thread when there is an answer.
+    [[nodiscard]] static Result<std::unique_ptr<HostAnswers>> create(const State& state, std::function<void()> wake);
+    ~HostAnswers();
+
+    /// The clearance, then the area, and the answer where the question's method is the host's. `writes`: to the volume
+    /// since it was read.
+    void ask(LiveQuestion question, const HoleWrites& writes);
+    /// The number of the first write that was not taken over yet.
+    [[nodiscard]] std::uint64_t written() const { return written_; }
+    /// A question of a comparison, when there is nothing else to do.
+    void compare(LiveQuestion question);
+    /// What became of a comparison's question, once; Cancelled where it gave way.
+    [[nodiscard]] std::optional<Result<LiveAnswer>> takeCompared();
+    /// The newest answer, once; nothing where there is no new one.
+    [[nodiscard]] std::optional<Result<LiveAnswer>> take();
+    /// The same of clearances: once without and once with areas.
+    [[nodiscard]] std::optional<Result<LiveClearance>> takeClearance();
+
+  private:
+    HostAnswers(cpu::HostEngine engine, cpu::Volume volume, std::vector<cpu::Mesh> meshes, const State& state,
+                std::function<void()> wake);
+    void work();
+    template <class Found> void give(std::optional<Result<Found>>& to, Result<Found> found);
+    /// Valid until the next call.
+    [[nodiscard]] Result<cpu::Batch> batchOf(const LiveQuestion& question, const std::atomic<bool>& cancel);
+    [[nodiscard]] Result<LiveAnswer> answer(const LiveQuestion& question, const std::atomic<bool>& cancel);
+    [[nodiscard]] Result<LiveClearance> measure(const LiveQuestion& question);
+    /// The same with areas.
+    [[nodiscard]] Result<LiveClearance> withAreas(const LiveQuestion& question, LiveClearance clearance);
+    void follow(const LiveQuestion& question, const std::vector<HoleWrite>& writes);
+
+    cpu::HostEngine engine_;
+    cpu::Volume volume_;
+    std::vector<cpu::Mesh> meshes_; ///< by their numbers in Sources::meshes
+    std::optional<LabelData> labels_;
+    ValueRange domain_;
+    std::uint32_t tableSize_;
+    View view_;
+    std::function<void()> wake_;
+    std::optional<cpu::TransferFunction> function_;
+    Curve functionOf_; ///< what function_ was made from
+    std::vector<Mat4> poses_;
+    std::vector<cpu::BatchItem> items_;
+
+    std::mutex mutex_;
+    std::condition_variable asked_;
+    std::optional<LiveQuestion> question_;
+    std::optional<LiveQuestion> compare_;
+    std::vector<HoleWrite> writes_; ///< that are to be done before it
+    std::uint64_t written_ = 0;     ///< that were taken over
+    std::optional<Result<LiveAnswer>> answer_;
+    std::optional<Result<LiveAnswer>> compared_;
+    std::optional<Result<LiveClearance>> clearance_;
+    std::atomic<bool> stop_ = false;
+    std::atomic<bool> newer_ = false; ///< there is a question that nobody looks at yet
+    std::thread thread_;
+};
+
+} // namespace voxtact::view

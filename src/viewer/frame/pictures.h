@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "viewer/frame/device_scene.h"
+#include "viewer/model/shown/pace.h"
+
+namespace voxtact::view {
+
+/// The large picture: coarse at once, as large as a frame has time for, and fine when nothing changes any more, some
+/// rows per frame. Its images are in the layout GENERAL.
+class Pictures {
+  public:
+    [[nodiscard]] static Result<Pictures> create(const device::Session& session, const Renderer& renderer,
+                                                 const Extent& extent);
+    Pictures(Pictures&& other) noexcept;
+    Pictures& operator=(Pictures&&) = delete;
+    ~Pictures();
+
+    /// Images for that size. Where it is another than before nothing may be in flight.
+    [[nodiscard]] Result<void> resize(const Renderer& renderer, const Extent& extent);
+    [[nodiscard]] bool fits(const Extent& extent) const;
+
+    /// What a frame adds to the picture of `state`, if anything, and says in it how far the fine one is.
+    [[nodiscard]] Result<void> record(VkCommandBuffer commands, DeviceScene& scene, State& state, std::uint32_t slot);
+    /// The times of a slot's frame, which is done.
+    void collect(std::uint32_t slot, double wallMilliseconds);
+
+    [[nodiscard]] VkImageView coarse() const { return coarse_.view(); }
+    [[nodiscard]] VkImageView fine() const { return fine_.view(); }
+    /// The part of coarse() that was drawn last.
+    [[nodiscard]] SampledPart coarsePart() const { return sampledPart(shown_, full_); }
+
+  private:
+    explicit Pictures(const device::Session& session) : session_(&session) {}
+
+    /// What a slot's frame made.
+    struct Made {
+        double coarse = 0; ///< pixels
+        double fine = 0;
+        bool timed = false; ///< timestamps were written
+    };
+
+    const device::Session* session_;
+    VkQueryPool timestamps_ = VK_NULL_HANDLE;
+    double tick_ = 0; ///< ms
+    std::optional<RenderTargets> targets_;
+    Image coarse_;
+    Image fine_;
+    Extent full_{0, 0};
+    Extent shown_{1, 1};
+    std::uint64_t coarseOf_ = 0; ///< State::pictureRevision
+    std::uint64_t fineOf_ = 0;
+    std::uint32_t fineRows_ = 0; ///< that are there
+    Pace pace_{45};
+    std::array<Made, kFramesInFlight> made_{};
+};
+
+} // namespace voxtact::view

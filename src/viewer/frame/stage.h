@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "viewer/frame/beside_answers.h"
+#include "viewer/frame/device_answers.h"
+#include "viewer/frame/host_answers.h"
+#include "viewer/frame/pictures.h"
+#include "viewer/frame/slice_pass.h"
+#include "viewer/model/files/progress.h"
+
+namespace voxtact::view {
+
+/// What a stage is made for.
+struct StageDesc {
+    std::function<Lighting(const Grid&)> light; ///< of the fine picture
+    std::function<void()> wake;                 ///< called from another thread when there is an answer
+    Extent picture{16, 16};                     ///< pixels, for a start
+    std::array<Extent, 3> slices{{{16, 16}, {16, 16}, {16, 16}}};
+};
+
+/// All that belongs to one volume and its meshes, on the device and on the host. Made on any thread while the frames of
+/// another one go on; afterwards it is the frames' own.
+struct Stage {
+    /// The volume that stages are made of. LimitExceeded and OutOfMemory: it is too large for the device.
+    [[nodiscard]] static Result<Volume> upload(const device::Session& session, const VolumeData& volume);
+    /// Takes the volume of `state`. Waits for the device, and has drawn and answered once, so that all that is made on
+    /// the way is there.
+    [[nodiscard]] static Result<std::unique_ptr<Stage>> create(const device::Session& session, const State& state,
+                                                               Volume volume, const StageDesc& desc,
+                                                               Progress& progress);
+
+    // In the order in which they end, the last first.
+    std::unique_ptr<DeviceScene> scene;
+    std::optional<DeviceAnswers> device;
+    std::unique_ptr<BesideAnswers> beside;
+    std::unique_ptr<HostAnswers> host;
+    std::optional<Pictures> pictures;
+    std::optional<SlicePass> slices;
+};
+
+} // namespace voxtact::view

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "vulkan/own/vulkan_device.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace voxtact::view {
+
+/// The images of a window. Made again when the window changes its size.
+class Swapchain {
+  public:
+    /// The surface is the window's; this owns it from now on.
+    [[nodiscard]] static Result<Swapchain> create(const device::VulkanDevice& device, VkSurfaceKHR surface);
+    Swapchain(Swapchain&& other) noexcept;
+    Swapchain& operator=(Swapchain&&) = delete;
+    ~Swapchain();
+
+    /// Nothing may be in flight. An extent of 0 (a window that is not shown) leaves it without images.
+    [[nodiscard]] Result<void> resize(VkExtent2D extent);
+    /// Whether the images are the window's still.
+    [[nodiscard]] bool stale() const noexcept { return stale_; }
+    [[nodiscard]] VkFormat format() const noexcept { return format_.format; }
+    [[nodiscard]] VkExtent2D extent() const noexcept { return extent_; }
+
+    /// The number of an image to draw into once `acquired` is signalled; false where the images are stale.
+    [[nodiscard]] Result<bool> acquire(VkSemaphore acquired, std::uint32_t& image);
+    /// Shows it when it is drawn().
+    [[nodiscard]] Result<void> present(VkQueue queue, std::uint32_t image);
+    [[nodiscard]] VkImage image(std::uint32_t number) const { return images_[number]; }
+    [[nodiscard]] VkImageView view(std::uint32_t number) const { return views_[number]; }
+    [[nodiscard]] VkSemaphore drawn(std::uint32_t number) const { return drawn_[number]; }
+
+  private:
+    Swapchain(const device::VulkanDevice& device, VkSurfaceKHR surface) : device_(&device), surface_(surface) {}
+    [[nodiscard]] Result<void> chooseFormat();
+    [[nodiscard]] Result<void> makeViews();
+    void destroyImages() noexcept;
+
+    const device::VulkanDevice* device_;
+    VkSurfaceKHR surface_;
+    VkSurfaceFormatKHR format_{};
+    VkSwapchainKHR swapchain_ = VK_NULL_HANDLE;
+    VkExtent2D extent_{};
+    std::vector<VkImage> images_;
+    std::vector<VkImageView> views_;
+    std::vector<VkSemaphore> drawn_;
+    bool stale_ = true;
+};
+
+} // namespace voxtact::view

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "viewer/state.h"
+#include "vulkan/own/session.h"
+
+#include <span>
+
+struct GLFWwindow;
+struct ImDrawData;
+
+/// What ties panels and frames to a window of GLFW's.
+namespace voxtact::view {
+
+/// Dear ImGui's context and what it gets of the window's input. One at a time.
+class Panels {
+  public:
+    /// The window's user pointer is the State that keys and dropped files go to. `font` outlives this.
+    Panels(GLFWwindow* window, std::span<const unsigned char> font);
+    Panels(const Panels&) = delete;
+    Panels& operator=(const Panels&) = delete;
+    ~Panels();
+};
+
+/// What the panels draw of a state. Valid until the next call.
+[[nodiscard]] const ImDrawData& drawAllPanels(State& state);
+
+/// The window's surface, of which it has one at a time; the one who takes it ends it.
+[[nodiscard]] Result<VkSurfaceKHR> makeSurface(const device::Session& session, GLFWwindow* window);
+
+/// Why the window system refused what was asked for last.
+[[nodiscard]] std::string windowSystemReason();
+
+} // namespace voxtact::view

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "viewer/model/document/document.h"
+
+#include <string>
+
+namespace voxtact::view {
+
+/// The line for a shell that gives the same answer for one of the document's instruments: `voxtact count` with
+/// everything that an answer depends on, and the pose on its standard input. Files by their absolute paths. Holes are
+/// in no file: a comment before the line says that they are missing. `device`: as --device takes it; empty: the
+/// default.
+[[nodiscard]] std::string commandFor(const Document& document, const Instrument& instrument, const MethodChoice& method,
+                                     const std::string& device);
+
+/// The same for all of them, in their order: a line each, which have poses, spaces and scales of their own, and the
+/// comments once.
+[[nodiscard]] std::string copyAsCommand(const Document& document, const MethodChoice& method,
+                                        const std::string& device);
+
+/// A text as one word of a shell.
+[[nodiscard]] std::string shellWord(const std::string& text);
+
+/// Sixteen numbers, row by row, as pose files have them; they read back as the same.
+[[nodiscard]] std::string poseText(const Mat4& world_from_object);
+
+} // namespace voxtact::view

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "viewer/model/document/document.h"
+#include "voxtact/results.h"
+
+#include <cstdint>
+#include <deque>
+#include <span>
+#include <string>
+#include <vector>
+
+/// What the window says of the pairs that it shows: of each mesh and the volume.
+namespace voxtact::view {
+
+/// Contacts that are shown and listed, at most.
+inline constexpr std::size_t kShownContacts = 2000;
+
+/// Where projections with a camera look from, as `voxtact count` has it.
+[[nodiscard]] View answerView(const Grid& grid);
+
+/// What is asked: of all instruments of an edit, in one way.
+struct LiveQuestion {
+    std::uint64_t revision = 0; ///< its answer has the same
+    Edit edit;
+    MethodChoice method;
+};
+
+/// What is said of one mesh.
+struct MeshAnswer {
+    Instrument instrument; ///< that was asked about
+    PairAnswer pair;
+    std::vector<std::uint32_t> triangles; ///< with survivors, by their numbers
+    std::vector<Contact> contacts;        ///< the deepest first, at most kShownContacts
+    std::uint64_t contactsFound = 0;      ///< of a list of the batch that was cut: the pair's count
+    std::vector<LabelCount> labels;       ///< that are touched, those with the most survivors first
+};
+
+struct LiveAnswer {
+    std::uint64_t revision = 0;     ///< of the question
+    std::vector<MeshAnswer> meshes; ///< in the order of the question
+    double milliseconds = 0;        ///< of all of it. The host: wall clock; a device: its own clock, where it has one
+
+    /// Of a mesh by its number in Sources::meshes. Null where it was not asked about.
+    [[nodiscard]] const MeshAnswer* of(std::size_t mesh) const noexcept;
+};
+
+/// Of a batch with one pair for each instrument, in their order.
+[[nodiscard]] LiveAnswer liveAnswer(BatchAnswer batch, std::uint64_t revision, std::span<const Instrument> instruments,
+                                    double milliseconds);
+
+/// "yes", "no" or "undecided".
+[[nodiscard]] const char* verdict(const PairAnswer& answer) noexcept;
+/// "at least 3 certified cells", "1 fragment".
+[[nodiscard]] std::string countText(const PairAnswer& answer);
+/// "12 triangles, deepest 3.2 mm".
+[[nodiscard]] std::string trianglesText(const MeshAnswer& answer);
+/// As `voxtact count` writes it: 0, 1, or 2 for undecided.
+[[nodiscard]] int hitNumber(const PairAnswer& answer) noexcept;
+
+/// The times of the last 1,000 answers.
+class Times {
+  public:
+    void add(double milliseconds);
+    [[nodiscard]] std::size_t count() const { return last_.size(); }
+    /// The nearest rank: the least time that at least this share (0..1) of them does not exceed. 0 without any.
+    [[nodiscard]] double percentile(double share) const;
+    /// In their order.
+    [[nodiscard]] const std::deque<double>& last() const { return last_; }
+
+  private:
+    std::deque<double> last_;
+};
+
+/// What the window said in the last seconds: an answer is in sight until the next one comes.
+class Strip {
+  public:
+    static constexpr double kSeconds = 10; ///< that it goes back
+
+    /// An answer came into sight. `when`: seconds of some clock, never less than before. `hit`: as hitNumber().
+    void add(double when, int hit, double milliseconds);
+
+    struct Piece {
+        double from = 0; ///< seconds before now, up to kSeconds
+        double to = 0;   ///< the same, less than `from`
+        int hit = 0;
+        double milliseconds = 0; ///< that the answer took
+    };
+    /// The oldest first. `now`: on the same clock.
+    [[nodiscard]] std::vector<Piece> pieces(double now) const;
+
+  private:
+    struct Entry {
+        double when = 0;
+        int hit = 0;
+        double milliseconds = 0;
+    };
+    std::deque<Entry> entries_;
+};
+
+} // namespace voxtact::view

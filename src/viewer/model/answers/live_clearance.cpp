@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/model/answers/live_clearance.h"
+
+#include "core/base/infinity.h"
+#include "core/base/outward.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace voxtact::view {
+
+namespace {
+
+/// Hundredths of a millimetre; of what is short so many that two digits are left.
+int decimalsOf(double mm) {
+    constexpr int kLeast = 2;
+    constexpr int kMost = 6; // a nanometre
+    return mm > 0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(mm))), kLeast, kMost) : kLeast;
+}
+
+std::string written(double mm, int decimals) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.*f", decimals, mm);
+    return text;
+}
+
+} // namespace
+
+const MeshClearance* LiveClearance::of(std::size_t mesh) const noexcept {
+    const auto at = std::ranges::find_if(meshes, [mesh](const MeshClearance& one) { return one.mesh == mesh; });
+    return at == meshes.end() ? nullptr : &*at;
+}
+
+bool LiveClearance::hasAreas() const noexcept {
+    return std::ranges::all_of(meshes, [](const MeshClearance& one) { return one.area.has_value(); });
+}
+
+std::string lowerText(double mm) {
+    const int decimals = decimalsOf(mm);
+    return written(lowerRounded(mm, std::pow(10, decimals)), decimals);
+}
+
+std::string upperText(double mm) {
+    const int decimals = decimalsOf(mm);
+    return written(upperRounded(mm, std::pow(10, decimals)), decimals);
+}
+
+std::string clearanceText(const MeshClearance& clearance) {
+    const auto& [lo, hi] = clearance.pair.bounds;
+    if (std::isinf(lo)) {
+        return "nothing is opaque";
+    }
+    if (hi == 0) {
+        const Bounds area = clearance.area ? clearance.area->bounds : Bounds();
+        const bool isKnown = area.upper > 0 && area.upper < kInfinity;
+        return (isKnown ? lowerText(area.lower) + " to " + upperText(area.upper) + " mm\u00b2 touch" : "touches");
+    }
+    return (std::isinf(hi) ? "at least " + lowerText(lo) : lowerText(lo) + " to " + upperText(hi)) + " mm away";
+}
+
+std::optional<std::array<Vec3, 2>> closestSegment(const PairDistance& clearance) noexcept {
+    if (!clearance.closest || clearance.bounds.upper == 0) {
+        return std::nullopt;
+    }
+    return std::array{clearance.closest->mesh, clearance.closest->volume};
+}
+
+double distanceOfPlane(const std::array<Vec3, 2>& segment, std::size_t axis, double at) noexcept {
+    const auto [lo, hi] = std::minmax(segment[0][axis], segment[1][axis]);
+    return std::max({lo - at, at - hi, 0.0});
+}
+
+} // namespace voxtact::view

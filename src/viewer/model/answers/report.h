@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "viewer/model/answers/comparison.h"
+#include "viewer/model/answers/live_answer.h"
+#include "viewer/model/answers/live_clearance.h"
+#include "viewer/model/document/labels.h"
+#include "viewer/model/document/question.h"
+#include "viewer/model/files/loading.h"
+#include "viewer/model/shown/view_cube.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace voxtact::view {
+
+/// What --report-state writes.
+struct StateReport {
+    const LiveAnswer* answer = nullptr;       ///< null where there is none yet
+    const Times* times = nullptr;             ///< must be given
+    const Document* document = nullptr;       ///< must be given
+    std::vector<std::string> commands;        ///< commandFor() of each of its instruments; empty without an answer
+    const LiveClearance* clearance = nullptr; ///< null where there is none yet
+    const Labels* labels = nullptr;           ///< null where there is no label map
+    std::array<double, 4> picture{};          ///< where it is in the window: corner and size, points
+    ViewDirection direction;                  ///< from where the picture is seen
+    std::optional<ViewCube> cube;             ///< in the picture; null: it is too small for it
+    std::array<double, 4> chart{};            ///< where the curve's chart is, the same
+    ValueRange chartRange;                    ///< the values that it shows
+    std::string device;                       ///< that answered; "host" for cpu
+    std::string error;                        ///< of the dialog that is open; empty: none
+    const Question* question = nullptr;       ///< the dialog with a choice that is open; null: none
+    std::optional<std::string> field;         ///< what stands in the field for a path that has the keyboard; null: none
+    const Loading* loading = nullptr;         ///< null: nothing is being loaded
+    const Loading* loaded = nullptr;          ///< how that went which was loaded last; null: not known yet
+    const Comparison* comparison = nullptr;   ///< of the methods; null where it is not shown
+    std::optional<double> saving;             ///< how much of a picture for a file is drawn, or written
+    std::vector<std::string> notes;           ///< what strikes in what is shown
+    std::string status;                       ///< what was done last
+    std::uint64_t frame = 0;                  ///< frames shown until then
+    const Times* frameTimes = nullptr;        ///< from one frame to the next, of the last ones; must be given
+    bool settled = false;                     ///< the answer is of what is shown, and the fine picture is there
+};
+
+/// One JSON object.
+[[nodiscard]] std::string reportText(const StateReport& report);
+
+} // namespace voxtact::view

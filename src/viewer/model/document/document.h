@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "viewer/model/document/curve.h"
+#include "viewer/model/shown/camera.h"
+#include "viewer/model/shown/gizmo.h"
+#include "voxtact/methods.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+/// All that the window shows, as plain data: what a session file holds.
+namespace voxtact::view {
+
+/// Where a mesh comes from, as the command line takes it.
+struct MeshSource {
+    std::string path;
+    std::string space = "lps"; ///< what its coordinates mean
+    double scale = 1;          ///< mm of its unit
+};
+
+/// Where volume and meshes come from, as the command line takes them.
+struct Sources {
+    std::string volume;
+    std::vector<MeshSource> meshes; ///< all that were opened; those that were removed too, so that undo has them
+    std::string labels;             ///< a label map; empty: none
+    std::string labelNames;         ///< what its labels are called; empty: the file beside it, where it is there
+    std::uint32_t coarser = 1;      ///< the volume that is shown has a voxel for so many along each axis
+};
+
+/// A mesh that is there, and where.
+struct Instrument {
+    std::size_t mesh = 0; ///< its number in Sources::meshes; no two have the same
+    Mat4 world_from_object = identity();
+    bool shown = true; ///< in picture and slices; it is answered for in any case
+
+    [[nodiscard]] bool operator==(const Instrument&) const = default;
+};
+
+/// What commands change, and undo gives back.
+struct Edit {
+    Curve curve;
+    std::vector<ColourPoint> colours; ///< of the picture
+    double threshold = kDefaultThreshold;
+    std::vector<Instrument> instruments{1}; ///< at least one
+    std::size_t chosen = 0;                 ///< of them: what is moved. Undo gives it back, but it is no command
+    std::size_t holes = 0;                  ///< that are drilled, of those that are known
+
+    [[nodiscard]] const Instrument& instrument() const { return instruments[chosen]; }
+    /// `world_from_object` of the chosen instrument.
+    [[nodiscard]] const Mat4& pose() const { return instruments[chosen].world_from_object; }
+    [[nodiscard]] Mat4& pose() { return instruments[chosen].world_from_object; }
+
+    /// Whatever is chosen.
+    [[nodiscard]] bool operator==(const Edit& other) const {
+        return threshold == other.threshold && holes == other.holes && instruments == other.instruments &&
+               sameCurve(curve, other.curve) && sameColours(colours, other.colours);
+    }
+};
+
+/// How the answer is found.
+struct MethodChoice {
+    CountingMethod count = CountingMethod::Cpu;
+    Projection projection = Projection::Certified;
+
+    [[nodiscard]] bool operator==(const MethodChoice&) const = default;
+};
+
+/// Panes that can have the whole middle of the window.
+enum class Maximised { None, Picture, Slice0, Slice1, Slice2 };
+
+/// Of the panels.
+enum class Theme { Dark, Light };
+
+/// What is on, and how far a step goes.
+struct Shown {
+    GizmoAxes handleAxes = GizmoAxes::World;
+    bool handles = true;
+    bool contacts = true;
+    bool logHistogram = true;
+    Maximised maximised = Maximised::None;
+    Theme theme = Theme::Dark;
+    double stepMillimetres = 1;
+    double stepDegrees = 5;
+    double drillRadius = 5;                          ///< mm
+    std::optional<ValueRange> window = std::nullopt; ///< of the slices: black and white; nothing: all values
+};
+
+struct Document {
+    Sources sources;
+    Edit edit;
+    ValueRange domain{0, 255};
+    std::uint32_t tableSize = kDefaultTableSize;
+    std::vector<Mat4> poses;            ///< the list; may be empty
+    std::size_t pose = 0;               ///< the one of the list that was taken last
+    std::optional<MethodChoice> method; ///< nothing: what the machine is best at
+    std::optional<Camera> camera;       ///< nothing: framing the volume
+    std::optional<Shown> shown;         ///< nothing: as the window has it
+    std::vector<Ball> holes;            ///< in the order in which they were drilled, at least edit.holes
+    std::optional<Vec3> cursor;         ///< world, mm: where the slices are; nothing: the middle of the volume
+};
+
+} // namespace voxtact::view

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "voxtact/looks.h"
+
+#include <cstdint>
+
+/// The eye of the large picture: orthographic, round a point that it looks at.
+namespace voxtact::view {
+
+/// mm; Camera::halfHeight keeps to these.
+inline constexpr double kLeastHalfHeight = 0.01;
+inline constexpr double kMostHalfHeight = 1e6;
+
+struct Camera {
+    Vec3 target{};           ///< world, mm: in the picture's middle
+    ViewDirection direction; ///< from where the eye looks
+    double halfHeight = 100; ///< mm from the picture's middle to its upper edge
+};
+
+/// Pixels of a picture.
+struct Extent {
+    std::uint32_t width = 1;
+    std::uint32_t height = 1;
+};
+
+/// Looks at the middle of a volume and frames it, whatever the direction.
+[[nodiscard]] Camera framing(const Grid& grid, const ViewDirection& direction) noexcept;
+
+/// Turned by a drag of so many pixels: a picture's height is half a turn. The elevation stays between -90 and 90.
+void orbit(Camera& camera, double right, double down, const Extent& extent) noexcept;
+/// What is under the pointer stays under it.
+void pan(Camera& camera, double right, double down, const Extent& extent) noexcept;
+/// By a factor, below 1 is nearer; what is at the pixel x, y stays there.
+void zoom(Camera& camera, double factor, double x, double y, const Extent& extent) noexcept;
+
+/// `depth`: mm before and behind the target that are to be seen.
+[[nodiscard]] Mat4 clipFromWorld(const Camera& camera, const Extent& extent, double depth) noexcept;
+
+/// Millimetres of a pixel.
+[[nodiscard]] double millimetresOfPixel(const Camera& camera, const Extent& extent) noexcept;
+
+/// A length for a scale bar: 1, 2 or 5 times a power of ten millimetres, the longest that is at most `most` long.
+[[nodiscard]] double barLength(double most) noexcept;
+
+} // namespace voxtact::view

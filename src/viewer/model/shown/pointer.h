@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "viewer/model/shown/slice.h"
+
+#include <array>
+#include <cstddef>
+#include <deque>
+#include <optional>
+
+namespace voxtact::view {
+
+/// What the pointer does between two frames, in its order and each at its place: a slow frame neither loses a click nor
+/// takes the way to it for a drag.
+class Pointer {
+  public:
+    static constexpr std::size_t kButtons = 3;
+
+    /// What a frame sees.
+    struct Seen {
+        std::optional<Point2> at; ///< where a button changed; nothing: wherever the pointer is now
+        std::array<bool, kButtons> down{};
+        std::array<int, kButtons> clicks{}; ///< soon after another at one place, with that of this frame; 0: no press
+    };
+
+    void moveTo(const Point2& at) { place_ = at; }
+    /// `reach`: how far from the click before it a click may be that belongs to it.
+    void press(std::size_t button, double seconds, double reach);
+    void release(std::size_t button);
+
+    /// For a frame that begins then: as far as the next change of a button.
+    [[nodiscard]] Seen next(double seconds);
+    /// Whether frames have not seen all of it.
+    [[nodiscard]] bool behind() const noexcept { return !steps_.empty(); }
+
+  private:
+    struct Step {
+        Point2 at{};
+        std::size_t button = 0;
+        bool down = false;
+        int clicks = 0; ///< of a press
+    };
+    struct Click {
+        Point2 at{};
+        double seconds = 0;
+        int number = 0;
+    };
+
+    std::deque<Step> steps_;
+    std::array<bool, kButtons> down_{}; ///< as the last frame saw them
+    std::array<Click, kButtons> last_{};
+    Point2 place_{};
+    Point2 told_{};     ///< where it was in the last of the steps, else in the last frame
+    double looked_ = 0; ///< when the last frame began
+};
+
+} // namespace voxtact::view

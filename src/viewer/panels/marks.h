@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "viewer/state.h"
+#include "voxtact/render.h"
+
+#include <imgui.h>
+
+#include <memory>
+#include <vector>
+
+/// What is drawn over the large picture, in pictures that are saved: without a device, so that any size will do.
+namespace voxtact::view {
+
+/// A copy of triangles of Dear ImGui's, in pixels of a picture, and of the font that they are of.
+struct Marks {
+    struct Font {
+        int width = 0;
+        int height = 0;
+        std::vector<unsigned char> rgba;
+    };
+    std::shared_ptr<const Font> font;
+    std::vector<ImDrawVert> vertices;
+    std::vector<std::uint32_t> indices; ///< three of each triangle
+};
+
+/// Those of a state in a picture of that size, larger as it is larger than the picture in the window. Between
+/// ImGui::NewFrame() and the next one, on the thread of the panels.
+[[nodiscard]] Marks marksOf(const State& state, const Extent& extent);
+
+/// Draws them over a picture. On any thread.
+void paint(const Marks& marks, Picture& picture);
+
+} // namespace voxtact::view

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/program/view_notes.h"
+
+#include "cli/options/opacity_notes.h"
+#include "cli/output/size_note.h"
+#include "voxtact/looks.h"
+
+namespace voxtact::app {
+
+namespace {
+
+/// By the curve, however it was chosen or came back.
+std::string noteOfPreset(const view::State& state) {
+    for (const LookPreset& preset : lookPresets()) {
+        const Result<Look> look = lookNamed(preset.name, state.values);
+        if (look.ok() && view::sameCurve(look->opacity, state.document.edit.curve)) {
+            return presetNote(preset.name, state.values);
+        }
+    }
+    return {};
+}
+
+} // namespace
+
+std::vector<std::string> windowNotes(const view::State& state) {
+    const view::Document& document = state.document;
+    std::vector<std::string> notes;
+    if (std::string said = noteOfPreset(state); !said.empty()) {
+        notes.push_back(std::move(said));
+    }
+    for (const std::string& said : opacityNotes({document.edit.curve, document.domain, document.tableSize},
+                                                state.values, document.edit.threshold, document.sources.volume, true)) {
+        notes.push_back(said);
+    }
+    // Most often a mesh that strikes by its size is in another unit than was said.
+    for (const view::Instrument& instrument : document.edit.instruments) {
+        const std::string said =
+            sizeNote(state.bounds[instrument.mesh], instrument.world_from_object, state.volume.grid);
+        if (!said.empty()) {
+            notes.push_back("the mesh " + document.sources.meshes[instrument.mesh].path + " " + said);
+        }
+    }
+    return notes;
+}
+
+} // namespace voxtact::app

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "viewer/model/answers/comparison.h"
+#include "viewer/model/answers/live_answer.h"
+#include "viewer/model/answers/live_clearance.h"
+#include "viewer/model/document/carving.h"
+#include "viewer/model/document/document.h"
+#include "viewer/model/document/history.h"
+#include "viewer/model/document/labels.h"
+#include "viewer/model/document/pose.h"
+#include "viewer/model/document/question.h"
+#include "viewer/model/files/loading.h"
+#include "viewer/model/shown/gizmo.h"
+#include "viewer/model/shown/histogram.h"
+#include "viewer/model/shown/keystrokes.h"
+#include "viewer/model/shown/pointer.h"
+#include "viewer/model/shown/slice.h"
+#include "viewer/model/shown/view_cube.h"
+
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// What the panels read and write, and the frames show. Neither Vulkan nor Dear ImGui.
+namespace voxtact::view {
+
+/// What the window is opened with.
+struct Given {
+    VolumeData volume;
+    std::vector<MeshData> meshes; ///< of Sources::meshes
+    std::optional<Labels> labels;
+    ValueRange values; ///< smallest and largest voxel
+    Document document;
+    std::uint32_t coarserBy = 1;   ///< Sources::coarser of the volume that is here
+    std::vector<std::string> read; ///< paths of poses and transfer functions, which no Sources have
+    std::string deviceOption;      ///< as --device was given; for copied commands
+    std::string deviceName;        ///< that draws
+};
+
+/// What a file can be to the window.
+enum class FileKind { Volume, Mesh, Poses, Function, Session };
+
+/// A document that is to be shown instead, whose files are not read yet.
+struct Wanted {
+    FileKind kind = FileKind::Session; ///< Volume: the transfer function is the volume's default
+    Document document;
+    std::string path; ///< the file that was opened
+};
+
+/// A part of the window that shows a picture, in pixels.
+struct Pane {
+    Extent extent;
+    void* texture = nullptr; ///< of the picture that is there
+    Point2 corner{0, 0};     ///< upper left, points of the window
+    Point2 size{0, 0};       ///< points of the window
+};
+
+/// The window is no smaller, in points: then its panels have no room.
+inline constexpr Extent kLeastWindow{640, 480};
+
+/// A picture that is to be made for a file.
+struct Shot {
+    std::string path;
+    Extent extent; ///< pixels
+};
+
+/// How far a picture for a file is.
+struct Saving {
+    double share = 0;     ///< of the rows, 0..1
+    bool writing = false; ///< all of it is drawn, and it goes to the file
+};
+
+/// A line for the person who looks: a dialog for errors, the status line for what was done.
+struct Message {
+    std::string text;
+    bool error = false;
+};
+
+/// A key that was pressed, or repeats, as GLFW numbers it. However many there are in a frame, none is lost.
+struct KeyPress {
+    int key = 0;
+    bool shift = false;
+    bool control = false;
+    bool held = false; ///< it repeats
+};
+
+/// Refuses an output that is one of these files, by whatever name.
+using MayWrite =
+    std::function<Result<void>(const std::filesystem::path& output, const std::vector<std::string>& inputs)>;
+
+struct State;
+/// What strikes in what is shown, a sentence each.
+using NotesOf = std::function<std::vector<std::string>(const State&)>;
+
+/// A handle that is held, and what was there when it was taken.
+struct GizmoDrag {
+    Handle handle;
+    Gizmo gizmo;
+    Mat4 world_from_object{};
+    Ray from;
+};
+
+struct State {
+    using Clock = std::chrono::steady_clock;
+
+    /// Nothing to show yet: no volume, no mesh.
+    State() = default;
+    explicit State(Given opened);
+
+    /// What another State goes on with that is shown instead of this: what belongs to the window, and for a mesh or a
+    /// volume that was opened what was edited meanwhile. Meshes that only the other has become instruments, by a
+    /// command; the last of them is chosen.
+    void passOn(State& next, std::optional<FileKind> opened);
+    /// What it was opened with and what became of that, to be opened again. Leaves nothing to show.
+    [[nodiscard]] Given giveBack();
+
+    /// Once a frame, after the panels: whether something changed, and when.
+    void update();
+    /// A command that undo takes back: `change` gets the edit. `merge`: see History.
+    void command(const std::function<void(Edit&)>& change, const std::string& merge = {});
+    /// A command of a key or a button that moves by steps: those of one `merge` that follow closely, or while it is
+    /// `held`, are one.
+    void step(const std::function<void(Edit&)>& change, const std::string& merge, bool held = false);
+    void undo();
+    void redo();
+    /// Drills a hole of drillRadius, with the image's smallest value. A command; what cannot be is complained of.
+    void drill(const Vec3& centre);
+    /// Takes a pose of the list for the chosen instrument. `held`: see step().
+    void takePose(std::size_t number, bool held = false);
+    /// Chooses an instrument; nothing where there is none of that number. No command, but what is moved after it is a
+    /// command of its own.
+    void choose(std::size_t number);
+    /// A command: the instrument is no longer there. Nothing for the last one.
+    void remove(std::size_t number);
+    /// Of the chosen instrument; null where there is none yet.
+    [[nodiscard]] const MeshAnswer* chosenAnswer() const;
+    [[nodiscard]] const MeshClearance* chosenClearance() const;
+    /// Since it was made.
+    [[nodiscard]] double seconds() const;
+    /// Nothing was changed for a moment.
+    [[nodiscard]] bool atRest() const;
+    /// The answer is of what is shown, and the fine picture is there.
+    [[nodiscard]] bool settled() const { return answer && answer->revision == revision && fineShare >= 1; }
+    /// Answers of the comparison are waited for.
+    [[nodiscard]] bool compares() const {
+        return comparing && !(comparison.isOf(document.edit) && comparison.complete());
+    }
+    void say(std::string text) { status = std::move(text); }
+    void complain(std::string text) { error = std::move(text); }
+    /// The values that the curve's chart shows: always a part of the domain.
+    [[nodiscard]] ValueRange chartRange() const { return zoomedRange.value_or(document.domain); }
+    /// Paths are dropped on the window, as GLFW tells of them.
+    void drop(int count, const char* const* paths) { dropped.insert(dropped.end(), paths, paths + count); }
+    /// Null where there is no label map.
+    [[nodiscard]] const Labels* labelsOrNull() const { return labels ? &*labels : nullptr; }
+    /// Refuses a path that is a file that is shown, or was read for what is shown.
+    [[nodiscard]] Result<void> checkOutput(const std::filesystem::path& path) const;
+    /// The document with what the window has of its own: camera, method, cursor, holes, and what is on.
+    [[nodiscard]] Document saved() const;
+
+    bool blank = true; ///< nothing to show yet: only the window's own parts count
+
+    // What it was opened with.
+    VolumeData volume;
+    std::vector<MeshData> meshes; ///< of Sources::meshes, also those that were removed
+    std::optional<Labels> labels;
+    ValueRange values;
+    std::uint32_t coarserBy = 1;
+    std::string deviceOption;
+    std::string deviceName;
+    std::vector<Box> bounds; ///< of `meshes`, object space
+    Mat4 texture_from_world{};
+    Histogram histogram;               ///< over the transfer function's domain
+    std::vector<MethodChoice> methods; ///< that this machine can do
+
+    // What is edited.
+    Document document;
+    History<Edit> history;
+    MethodChoice method;
+    Camera camera;
+    Vec3 cursor{};
+    ValueRange window; ///< of the slices: black and white
+
+    HoleWrites writes; ///< to the volume since it was read, for those who have copies of it
+
+    // What is shown.
+    std::uint64_t revision = 1;        ///< of what an answer depends on
+    std::uint64_t pictureRevision = 1; ///< of what the large picture depends on
+    std::optional<LiveAnswer> answer;
+    std::optional<LiveClearance> clearance; ///< of this question or one before
+    Comparison comparison;                  ///< of the methods, while `comparing`
+    Times times;
+    Strip strip; ///< by seconds()
+    std::string answeredBy;
+    Pane picture;
+    std::array<Pane, 3> slices;
+    double fineShare = 0; ///< of the fine picture that is there
+    Times frameTimes;
+    std::uint64_t frame = 0;
+    std::string status;
+    std::string error;
+    NotesOf notesOf;                  ///< empty: nothing strikes
+    std::vector<std::string> notes;   ///< of the document as it stands; while `itemHeld` as it was before
+    std::optional<Question> question; ///< a dialog, until it is answered
+    std::optional<std::string> field; ///< what stands in the field for a path that has the keyboard; null: none has
+    std::vector<std::string> recent;  ///< files that were opened, the last first
+    std::vector<std::string> read;    ///< poses and transfer functions, of all that was opened
+    MayWrite mayWrite;                ///< empty: everything may be written
+
+    // What the panels have of their own.
+    std::vector<KeyPress> keys; ///< since the last frame
+    Keystrokes keystrokes;      ///< of texts, that no frame had yet
+    Pointer pointer;            ///< what frames have not seen of it
+    bool itemHeld = false;      ///< by the mouse or the keyboard, as of the last frame
+    bool entered = false;       ///< Enter was pressed since the last frame
+    bool escaped = false;       ///< Escape, too
+    Maximised maximised = Maximised::None;
+    Theme theme = Theme::Dark;
+    std::optional<Theme> themeSet; ///< that the panels have; nothing: not known
+    bool playing = false;
+    bool showContacts = true;
+    bool showGizmo = true;
+    GizmoAxes gizmoAxes = GizmoAxes::World;
+    Handle gizmoHandle; ///< under the pointer, or held
+    std::optional<GizmoDrag> gizmoDrag;
+    std::optional<ViewCube> cube;           ///< where it is; nothing: the picture is too small
+    std::optional<std::size_t> cubeSide;    ///< of kPatientSides, under the pointer
+    std::optional<std::size_t> cubePressed; ///< that the left button was pressed on
+    std::optional<std::size_t> listedMesh;  ///< the chosen one that the list of meshes was scrolled to
+    std::optional<TypedAngles> typedAngles; ///< of the chosen instrument, or one before
+    bool helpOpen = false;
+    bool comparing = false; ///< the counts of all methods are shown
+    bool quit = false;
+    double stepMillimetres = 1;
+    double stepDegrees = 5;
+    double drillRadius = 5;                ///< mm
+    std::optional<std::size_t> curvePoint; ///< that is dragged or typed
+    bool logHistogram = true;
+    std::optional<ValueRange> zoomedRange; ///< of the curve's chart; nothing: all of the domain
+    Pane chart;                            ///< where the curve is in the window
+    std::optional<Wanted> wanted;          ///< until the window has examined it
+    std::vector<std::string> dropped;      ///< paths, since the last frame
+    std::vector<std::string> taken; ///< paths of poses and transfer functions that were opened, since the last frame
+    std::optional<Shot> shot;       ///< until the window has examined it
+    std::optional<Saving> saving;   ///< while a picture for a file is made
+    bool cancelSaving = false;      ///< asked for
+    std::optional<Loading> loading; ///< while something is
+    std::optional<Loading> loaded;  ///< how that went which was loaded last
+    bool cancelLoading = false;     ///< asked for
+
+  private:
+    struct Seen {
+        Edit edit;
+        MethodChoice method;
+        Camera camera;
+        Extent extent;
+        std::uint64_t answer = 0;
+    };
+    [[nodiscard]] Shown shown() const;
+    void show(const Shown& what);
+    void drillAndFill();
+    void bringHoles(std::size_t number);
+    void addHole(Hole hole, const Ball& ball);
+    void placeNewMeshes(std::size_t known);
+    void drillAll(const std::vector<Ball>& balls);
+    void drillAnew(const std::vector<Ball>& balls);
+
+    Holes holes_;
+    std::vector<Ball> balls_; ///< of holes_
+    Seen seen_;
+    std::uint64_t noted_ = 0; ///< the revision that `notes` are of; 0: of none yet
+    Clock::time_point changed_ = Clock::now();
+    Clock::time_point begun_ = Clock::now();
+    Clock::time_point stepped_; ///< the last step()
+};
+
+} // namespace voxtact::view

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "viewer/model/files/progress.h"
+#include "viewer/state.h"
+#include "voxtact/render.h"
+#include "vulkan/own/session.h"
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace voxtact::view {
+
+/// The connection to the display; one at a time in a process, and on its main thread.
+class Display {
+  public:
+    /// Unsupported, with the window system's reason, where there is none.
+    [[nodiscard]] static Result<std::unique_ptr<Display>> open();
+    Display(const Display&) = delete;
+    Display& operator=(const Display&) = delete;
+    ~Display();
+
+    /// What an instance must have to show pictures in a window. Valid as long as this.
+    [[nodiscard]] std::vector<const char*> instanceExtensions() const;
+    /// The same of a device.
+    [[nodiscard]] std::vector<const char*> deviceExtensions() const;
+
+  private:
+    Display() = default;
+};
+
+struct WindowDesc {
+    Extent size{1280, 800};
+    std::span<const unsigned char> font;        ///< a TrueType file; outlives the window
+    std::function<Lighting(const Grid&)> light; ///< of the fine picture of a volume
+    MayWrite mayWrite;                          ///< of all that is saved
+    NotesOf notes;                              ///< what strikes in what is shown; empty: nothing
+    /// Told of the notes of all that is opened, besides what the window says.
+    std::function<void(const std::string& note)> tell;
+    std::filesystem::path reportState;   ///< a file to write after each answer; empty: none
+    std::optional<std::uint64_t> frames; ///< to show before it ends by itself; nothing: until it is closed
+    std::uint32_t mostSide = 0;          ///< voxels along a side of a volume; 0: what the device takes
+
+    /// A device to draw on, with the display's extensions; asked again when that was lost.
+    std::function<Result<std::unique_ptr<device::Session>>()> session;
+    /// What is shown at first; empty where `opened` is given. An error ends the window.
+    std::function<Result<Given>(const device::Session&, Progress&)> first;
+    /// A session that is opened at first, as if it were with the menu.
+    std::optional<Wanted> opened;
+    /// Reads the files of a document that is wanted while the window is there.
+    std::function<Result<Given>(const Wanted&, const device::Session&, Progress&)> open;
+    /// How a device answers best.
+    std::function<MethodChoice(const device::Session&)> method;
+};
+
+/// Shows the window until it is closed.
+[[nodiscard]] Result<void> runWindow(const Display& display, const WindowDesc& desc);
+
+} // namespace voxtact::view

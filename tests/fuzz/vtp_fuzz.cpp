@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: MIT
+// VTK's PolyData in XML.
+#include "mesh_fuzz.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    return voxtact::fuzz::readAsMesh("input.vtp", data, size);
+}
