@@ -42,6 +42,17 @@ def until(window, act, what, true_of):
     raise AssertionError(f"four times, and not {what}: {window.state()}")
 
 
+def at_rest(window, name):
+    """The value of `name` in the state, once it has not changed for a second: each click of a wheel is a frame."""
+    value, since = window.state()[name], time.monotonic()
+    deadline = since + PATIENCE
+    while time.monotonic() < min(since + 1, deadline):
+        time.sleep(0.05)
+        if window.state()[name] != value:
+            value, since = window.state()[name], time.monotonic()
+    return value
+
+
 def cube(program, folder):
     with Server() as server, Window(program, server, folder, [*SCENE, "--device", "cpu", "--poses",
                                                              poses(folder, 60)]) as window:
@@ -79,18 +90,16 @@ def chart(program, folder):
             window.tool("mousemove", str(pointer), str(round(y + height * 0.9)))
             window.tool("click", "--repeat", "3", "--delay", "100", button)
         for _ in range(3):
-            low, high = until(window, lambda: scroll("4"), "nearer",
-                              lambda s, before=high - low: s["chart_range"][1] - s["chart_range"][0] < before
-                              )["chart_range"]
+            until(window, lambda: scroll("4"), "nearer",
+                  lambda s, before=high - low: s["chart_range"][1] - s["chart_range"][0] < before)
+            low, high = at_rest(window, "chart_range")
         assert low < value < high < points[3][0], (low, high, points)
         # Dragged there, it goes where the pointer goes: the value of a place is that of the zoomed axis.
         at = round(x + (value - low) / (high - low) * width), round(y + (1 - opacity) * height)
-        state = until(window, lambda: drag(window, *at, 10, 0), "the point elsewhere",
-                      lambda s: s["points"] != points and s["settled"])
-        moved = state["points"][number][0]
         expected = low + (at[0] + 10 - x) / width * (high - low)
-        assert len(state["points"]) == len(points) and abs(moved - expected) < 2 * (high - low) / width, \
-            (moved, expected, state)
+        state = until(window, lambda: drag(window, *at, 10, 0), f"the point at {expected}",
+                      lambda s: abs(s["points"][number][0] - expected) < 2 * (high - low) / width and s["settled"])
+        assert len(state["points"]) == len(points), state
         compare(program, state)
         until(window, lambda: scroll("5"), "all values", lambda s: s["chart_range"] == [0, 255])
         window.press("ctrl+q")
