@@ -169,6 +169,7 @@ TEST_F(QuestionMemory, OfTouches) {
     question.margin = 1;
     question.witness = 1;
     expectTightAnswer("touch", question);
+    question.margin = 0;
     question.witness = 0;
     question.uncertainty_distance = 0.2;
     question.uncertainty_angle = 1;

@@ -116,9 +116,11 @@ class CQuestions : public testing::Test {
             see(toString(pair.touch), true);
             see("witness point", pair.witness.has_value());
         }
+        given.margin = 0;
         given.witness = 0;
         given.uncertainty_distance = 1.5;
         given.uncertainty_angle = 3;
+        question.margin = 0;
         question.witness = false;
         question.uncertainty = PoseTolerance{1.5, 3};
         compare(both, scene, given, question);
@@ -470,6 +472,9 @@ TEST_F(CRefusals, OfNumbersOutsideTheirRanges) {
     EXPECT_THAT(refusedWith<vxt_touch>(&vxt_touch::margin, -1), HasSubstr("margin"));
     EXPECT_THAT(refusedWith<vxt_touch>(&vxt_touch::uncertainty_distance, -1), HasSubstr("distance"));
     EXPECT_THAT(refusedWith<vxt_touch>(&vxt_touch::uncertainty_angle, 181), HasSubstr("angle"));
+    vxt_touch both = sized<vxt_touch>();
+    both.margin = both.uncertainty_distance = 1;
+    EXPECT_THAT(refused(both), HasSubstr("margin and an uncertain pose"));
     EXPECT_THAT(refusedWith<vxt_touch>(&vxt_touch::resolution, 2), HasSubstr("resolution"));
     EXPECT_THAT(refusedWith<vxt_count>(&vxt_count::projection, static_cast<vxt_projection>(4)),
                 HasSubstr("projection"));
