@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# The README's build of the library alone: it configures without the packages that README does not name for it, and is
+# The manual's build of the library alone: it configures without the packages that the manual does not name for it, and is
 # optimised. SOURCE, BUILD, CXX, GENERATOR.
 cmake_minimum_required(VERSION 3.22)
 include("${CMAKE_CURRENT_LIST_DIR}/step.cmake")
@@ -13,11 +13,11 @@ function(configure options)
   endif()
 endfunction()
 
-file(READ "${SOURCE}/README.md" readme)
+file(READ "${SOURCE}/docs/index.md" manual)
 set(options -DVOXTACT_BUILD_IO=OFF -DVOXTACT_BUILD_CPU=OFF)
 string(JOIN " " written ${options})
-if(NOT readme MATCHES "cmake -S . -B build/library ${written}\n")
-  message(FATAL_ERROR "README builds the library with other options than ${written}")
+if(NOT manual MATCHES "cmake -S . -B build/library ${written}\n")
+  message(FATAL_ERROR "docs/index.md builds the library with other options than ${written}")
 endif()
 set(without "")
 foreach(package ITK nlohmann_json PNG ZLIB CLI11 GTest hwy fcl octomap)
