@@ -15,7 +15,7 @@ namespace voxtact::cpu {
 
 namespace {
 
-/// What a clearance belongs to.
+/// The scene of a tracked distance.
 struct TrackedScene {
     std::uint64_t mesh = 0;
     std::uint64_t volume = 0;
@@ -25,8 +25,8 @@ struct TrackedScene {
     [[nodiscard]] bool operator==(const TrackedScene&) const = default;
 };
 
-/// mm: no point of a box of object space is farther from one pose's place for it to another's. The difference of two
-/// affine maps is one, and the length of what it gives is greatest at a corner.
+/// Upper bound, mm, of the displacement of a point of a box of object space between two poses. The difference of two
+/// affine maps is affine, and its length is largest at a corner.
 double movedBy(const Mat4& from, const Mat4& to, const Box& box) {
     constexpr double kRounding = 1e-14;
     double most = 0;
@@ -90,7 +90,7 @@ TrackedDistance DistanceTrackerImpl::track(const BatchItem& item, double thresho
         out.bounds = {known.lower - moved, known.upper + moved};
         return out;
     }
-    scene = {}; // a look that fails leaves nothing that is known
+    scene = {}; // a failed search leaves no known distance
     const TrackedDistance out = look(item, threshold, kAhead * step);
     scene = now;
     lookedAt = pose;

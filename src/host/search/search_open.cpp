@@ -135,7 +135,7 @@ void ClosestSearch::openCluster(const Pair& pair) {
     if (!boxes_.opaque(child.cube(), region)) {
         return;
     }
-    // All of them by the normal of their box, then each by its own.
+    // All by the normal of their box, then each by its own.
     const dvec3 middle = part_->space.toWorld(region.middle());
     const PlacedBox* box = boxOf(child);
     const Direction along = box != nullptr ? mesh_->along(middle - mesh_->near(*box, middle)) : from(child, middle);
@@ -258,7 +258,7 @@ void ClosestSearch::gather(const Pair& pair) {
     mesh_->addCorners(pair.mesh, pair.triangles, corners_);
 }
 
-/// From the triangle that was nearest before to a point.
+/// Returns the direction from the previously nearest triangle to a point.
 Direction ClosestSearch::from(const Pair& pair, const dvec3& point) {
     return mesh_->along(point - mesh_->near(mesh_->triangle(pair.mesh, pair.nearest), point));
 }
@@ -358,7 +358,7 @@ void ClosestSearch::openLeaf(const Pair& pair) {
     if (!keepByPiece(child, piece, bounds)) {
         return;
     }
-    // A look takes as long as all of that.
+    // The full test costs as much as all of these.
     const PlacedTriangle nearest = mesh_->triangle(pair.mesh, child.nearest);
     const dvec3 normal = PieceLook(*part_, *searched_, cell, piece, *mesh_, nearest, goal_.tolerance / 8)
                              .run(pair.place(), error_, pair.mesh * kClusterTriangles + child.nearest, found_);

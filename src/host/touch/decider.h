@@ -74,8 +74,8 @@ template <class Kept, class Mode> class Decider {
             job_.clusterBegin, job_.clusterEnd, [this](const RunBox& box) { return mayTouch(box); }, visit);
     }
 
-    /// A vertex in opaque matter is found sooner than a fragment is decided: so first one vertex of every run is
-    /// probed, then all of those runs that one look leaves, and only then these are decided.
+    /// Testing a vertex is cheaper than deciding a fragment: probes one vertex of every run, then all vertices of the
+    /// runs that pass the bounds test, and then decides these runs.
     void probeAndDecide() {
         std::vector<std::uint32_t> runs;
         descend([&](std::uint32_t run) {
@@ -112,8 +112,8 @@ template <class Kept, class Mode> class Decider {
         }
     }
 
-    /// Whether the triangles in a box of object space may pass through a cell that may have an opaque point. Sets
-    /// `delta_`.
+    /// Returns true if the triangles in a box of object space may pass through a cell that may have an opaque point.
+    /// Sets `delta_`.
     [[nodiscard]] bool mayTouch(const RunBox& box) {
         if (boxes_.usable()) {
             const CellBox cells = boxes_.cells(box);
@@ -197,8 +197,7 @@ template <class Kept, class Mode> class Decider {
         decide(placed_.at(mesh.corner0[at]), placed_.at(mesh.corner1[at]), placed_.at(mesh.corner2[at]));
     }
 
-    /// A triangle of a run that was examined: in those cells alone that the look left, and where a look at itself
-    /// leaves them.
+    /// Decides a triangle of a tested run: only in the remaining cells of the run, and of the triangle.
     void decideLooked(const LikelyRuns<Kept>& likely, const typename LikelyRuns<Kept>::Run& run,
                       const CertifiedVertex& a, const CertifiedVertex& b, const CertifiedVertex& c) {
         const shader::CertifiedBounds bounds = shader::certifiedBounds(item_, a, b, c);
@@ -259,7 +258,7 @@ template <class Kept, class Mode> class Decider {
         }
     }
 
-    /// Those that may have an opaque point, until it is done.
+    /// Visits bricks that may have an opaque point, until it is done.
     template <class Visit> void visitBricks(const BrickBox& bricks, const Visit& visit) const {
         cells_.forBricks(
             bricks, [this] { return !done(); }, visit);
@@ -284,7 +283,7 @@ template <class Kept, class Mode> class Decider {
         }
     };
 
-    /// A triangle whose first place is too uncertain for any cell of it, placed precisely.
+    /// A triangle whose float position is too imprecise for any of its cells, transformed precisely.
     struct Precise {
         Decider& decider;
         shader::PrecisePlane plane;
@@ -402,7 +401,7 @@ template <class Kept, class Mode> class Decider {
         }
     }
 
-    /// `isLikely`: a look at the triangle in this cell is not worth it, or was taken already.
+    /// `isLikely`: testing the triangle's bounds in this cell is not worthwhile, or was done already.
     void decideCell(const CertifiedTriangle& triangle, std::int32_t x, std::int32_t y, std::int32_t z,
                     const BrickCells& known, bool isLikely) {
         const shader::CertifiedCorners corners = cells_.corners(x, y, z, known);
@@ -421,7 +420,7 @@ template <class Kept, class Mode> class Decider {
         }
     }
 
-    /// What is not asked for but in counting.
+    /// State that only counting needs.
     struct Counting {
         Counting(const CertifiedJob& job, const VolumeCells<Kept>& cells, const PlacedVertices& placed,
                  const shader::OpacityBounds& bounds, float delta)

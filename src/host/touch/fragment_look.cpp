@@ -18,7 +18,7 @@ struct PartBoxes {
     FragmentMask whole;
 };
 
-/// As certifiedPart() has an axis.
+/// Same as certifiedPart() along an axis.
 HWY_INLINE void setAlong(const FragmentLook::Lanes& lanes, std::size_t i, std::size_t axis, std::int32_t size,
                          PartBoxes& parts) {
     const FragmentFloats d;
@@ -35,7 +35,7 @@ HWY_INLINE void setAlong(const FragmentLook::Lanes& lanes, std::size_t i, std::s
     parts.whole = hn::And(parts.whole, cell.whole);
 }
 
-/// Of a point's error: the range here is off by one, a polygon's corner by another, and the third is for rounding.
+/// In units of a point's error: one for the range here, one for a polygon's corner, one for rounding.
 constexpr float kErrors = 3;
 
 HWY_INLINE void lookAtSome(const shader::CertifiedItem& item, const shader::OpacityBounds& bounds,

@@ -10,8 +10,7 @@
 
 namespace voxtact::cpu {
 
-/// Counts fragments in cells that are opaque in part: most by one look at many of them, the others one by one. One
-/// thread's.
+/// Counts fragments in partly opaque cells: most in batches, the others one by one. Not thread-safe.
 template <class Kept> class PartCounter {
     using Place = std::array<std::int32_t, 3>;
     using VoxelPoint = shader::VoxelPoint;
@@ -29,7 +28,7 @@ template <class Kept> class PartCounter {
         : cells_(cells), item_(job.occupancy.item()), opaque_(job.occupancy.opaque()) {}
 
     [[nodiscard]] bool full() const { return look_.full(); }
-    /// The next fragment; expects room. `passes`: it is clear that certifiedClip() leaves something of it.
+    /// Adds a fragment; expects room. `passes`: certifiedClip() certainly leaves a part of it.
     void add(const Triangle& triangle, const Place& cell, const BrickCells& known, bool passes) {
         const auto corners = cells_.corners(cell[0], cell[1], cell[2], known);
         waiting_[look_.count()] = {triangle, cell, corners};
@@ -60,7 +59,7 @@ template <class Kept> class PartCounter {
 
     template <class Again> int decide(const Waiting& fragment, const Again& again) const {
         const auto& [a, b, c] = fragment.triangle.corners;
-        shader::CertifiedTriangle triangle{}; // what certifiedBegin() needs of it
+        shader::CertifiedTriangle triangle{}; // input of certifiedBegin()
         triangle.corner0 = a;
         triangle.corner1 = b;
         triangle.corner2 = c;
@@ -77,7 +76,8 @@ template <class Kept> class PartCounter {
         return verdict == CERTIFIED_UNDECIDED ? again(fragment.triangle, fragment.cell) : verdict;
     }
 
-    /// Whether a corner proves what certifiedSettle() would find, as it looks at all corners before it gives up.
+    /// Returns true if a corner proves a touch, as certifiedSettle() would find, because it tests all corners before it
+    /// fails.
     bool someProves(const shader::CertifiedCell& cell, const VoxelPoint* polygon, int count) const {
         for (int i = 0; i < count; ++i) {
             const VoxelPoint& at = polygon[i];

@@ -62,7 +62,7 @@ HWY_INLINE PointV gradientsAt(const CellsV& cells, const PointV& at) {
             onLine(at.y, onLine(at.x, t[4], t[5]), onLine(at.x, t[6], xyz))};
 }
 
-/// Of the walks that go on: which have arrived, and what is still missing where others are.
+/// Active walks: those that have arrived, and the missing value elsewhere.
 struct Looked {
     unsigned arrived = 0;
     unsigned left = 0;

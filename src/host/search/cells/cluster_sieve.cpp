@@ -37,7 +37,7 @@ HWY_INLINE PointV offTriangles(const PlacedCluster& triangles, std::size_t first
     return offTriangle(triangle, inverse, point);
 }
 
-/// `bound(first, open)` has the bounds of the triangles from `first` on, as far as they are `open`.
+/// `bound(first, open)` returns bounds of the triangles from `first` on whose bits in `open` are set.
 template <class Bound> HWY_INLINE Sieved sieve(const SieveJob& job, const Bound& bound) {
     const Doubles d;
     const std::size_t lanes = hn::Lanes(d);

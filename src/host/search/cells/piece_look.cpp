@@ -46,8 +46,8 @@ struct Bracket {
     std::array<PlacedValue, 2> ends;
 
     [[nodiscard]] bool certain() const { return crosses(ends[0], ends[1]); }
-    /// To half of the way; false where none is certain. Around the middle where its value is too near to an interval's
-    /// end to tell on which side the opaque point is.
+    /// Moves to half of the distance; false if no point is certain. Stays near the middle if its value is too close to
+    /// an interval's end to tell on which side the opaque point is.
     bool halve() {
         const PlacedValue middle = at(0.5);
         for (const std::array<PlacedValue, 2>& half :
@@ -140,7 +140,7 @@ void PieceLook::between(const DistanceError& error, std::uint32_t number, Found&
         const dvec3 at = part_.space.toWorld(cell_.middle + 0.5 * end.at);
         const dvec3 near = mesh_.near(triangle_, at);
         const bool isIt = part_.intervals.contain(end.value - cell_.error, end.value + cell_.error);
-        // An opaque end, else the farther one: there is an opaque point no farther than that.
+        // An opaque end, else the farther one: an opaque point is at most that far away.
         if (const double distance = glm::distance(at, near); isIt || (!opaque && distance > farthest)) {
             farthest = distance;
             point = at;

@@ -31,7 +31,7 @@ void VolumeBoxes::begin(const VolumeImpl& volume, const OpaquePart& part, const 
     error_ = error;
 }
 
-/// Of cells, both ends inclusive, as far as they are in the domain.
+/// Sets the box of cells in the domain, both ends inclusive.
 void VolumeBoxes::set(const NodePlace& first, const NodePlace& last, OpaqueBox& box) const {
     for (int axis = 0; axis < 3; ++axis) {
         const auto at = static_cast<std::size_t>(axis);

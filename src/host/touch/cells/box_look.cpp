@@ -16,7 +16,7 @@ BoxLook::BoxLook(const shader::CertifiedItem& item, const shader::CertifiedPair&
     }
     const shader::CertifiedBounds bounds =
         shader::certifiedBoxBounds(item, pair, {all.lo[0], all.lo[1], all.lo[2], all.hi[0], all.hi[1], all.hi[2]});
-    // That of a box in this one is no larger, but for the rounding of its radius.
+    // The radius of an inner box is at most that of this one, up to rounding.
     constexpr float kRounding = 1 + 0x1p-20F;
     delta_ = bounds.delta * kRounding;
     usable_ = delta_ <= CERTIFIED_MOST_DELTA;

@@ -16,14 +16,14 @@ inline CellBox cellsOf(const shader::CertifiedBounds& bounds) {
     return {{bounds.firstX, bounds.firstY, bounds.firstZ}, {bounds.lastX, bounds.lastY, bounds.lastZ}};
 }
 
-/// Runs of triangles that one look at each leaves, and in which cells.
+/// Runs of triangles that pass the bounds test, with the cells that they may touch.
 template <class Kept> class LikelyRuns {
   public:
     struct Run {
         std::uint32_t number = 0;
-        bool isLooked = false; ///< false: it is too large for a look, or its place too uncertain; any cell may be
+        bool isLooked = false; ///< false: too large or too imprecise for the test; any cell may touch
         CellSet cells;
-        std::size_t firstCell = 0; ///< what is known of these
+        std::size_t firstCell = 0; ///< occupancy of the cells
     };
 
     /// All must outlive it.
@@ -61,8 +61,8 @@ template <class Kept> class LikelyRuns {
         }
     }
 
-    /// Calls `visit(x, y, z, cell)` for the cells of a box that a looked run may touch in, as long as `goesOn()`;
-    /// `cell` is of a delta that is not less than that of the run's triangles. Expects the box of one of these.
+    /// Calls `visit(x, y, z, cell)` for the cells of a box that a tested run may touch, while `goesOn()`; the delta of
+    /// `cell` is at least that of the run's triangles. Expects the box of one of these.
     template <class GoesOn, class Visit>
     void forCells(const Run& run, const CellBox& box, const GoesOn& goesOn, const Visit& visit) const {
         run.cells.forEach(box, goesOn, [&](std::int32_t x, std::int32_t y, std::int32_t z, std::size_t number) {
