@@ -37,7 +37,7 @@ struct NearMemory {
 [[nodiscard]] OpaquePoint nearestOpaque(const OpaquePart& part, const SearchedPart& searched, const VolumeImpl& volume,
                                         const glm::dvec3& from, double within, const NearMemory& memory);
 
-/// Like nearest(), in one brick.
+/// Like nearestOpaque(), in one brick.
 [[nodiscard]] OpaquePoint nearestInBrick(const OpaquePart& part, const SearchedPart& searched, const VolumeImpl& volume,
                                          const NodePlace& brick, const glm::dvec3& from, double within,
                                          const NearMemory& memory);

@@ -111,9 +111,9 @@ class ClosestSearch {
     template <class Visit> void forTriangles(const Pair& pair, const Visit& visit);
     /// Keeps those of a pair's triangles whose `bound(triangle)` does not close; false where none is left.
     template <class Bound> bool keep(Pair& pair, const Bound& bound);
-    /// Like keep(), along a direction whose minimum dot product with opaque points is known.
+    /// Prunes by the distance along a direction whose minimum dot product with opaque points is known.
     bool keepAlong(Pair& pair, const Direction& along, double least);
-    /// Like keep(), by the remaining triangles of a pair: `sieve(job)`.
+    /// Prunes by `sieve(job)`, which returns the remaining triangles of a pair.
     template <class Sieve> bool keepBy(Pair& pair, const Sieve& sieve);
     bool keepByPiece(Pair& pair, const CellPiece& piece, const PieceBounds& bounds);
 

@@ -40,7 +40,7 @@ template <class Kept> class VolumeCells {
             }
         }
     }
-    /// Like visit(), for the cells that a large triangle may pass through, in the same order.
+    /// Like forBricks(), for the bricks that a large triangle may pass through, in the same order.
     template <class GoesOn, class Visit>
     void forBricks(const BrickRows& bricks, const BrickBox& box, const GoesOn& goesOn, const Visit& visit) const {
         for (std::int32_t z = box.lo[2]; z <= box.hi[2]; ++z) {
