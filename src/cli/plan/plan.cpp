@@ -24,10 +24,10 @@ namespace voxtact::app {
 namespace {
 
 constexpr const char* kPlanFooter =
-    R"(Output: a row a straight path: entry,x,y,z,safe,lower,upper,nearest,...,target
+    R"(Output: a row per straight path: entry,x,y,z,safe,lower,upper,nearest,...,target
   safe           0 unsafe, 1 safe: both proven; 2 undecided
-  lower,upper    bounds of the distance to the obstacles on the way, mm
-  nearest,...    label of the nearest obstacle, or opaque; a point of it
+  lower,upper    bounds of the distance to the obstacles, mm
+  nearest,...    label of the nearest obstacle, or opaque; its nearest point
   length,angle   mm; degrees from the normal of the entry surface
   crosses        labels on the axis
 
