@@ -55,11 +55,11 @@ struct MakePosesOptions {
     std::filesystem::path path;
 };
 
-/// What writes a file, which is whole or not there. A signal before it leaves nothing behind either.
+/// Runs a function that writes a file atomically. An earlier signal leaves no file.
 template <class Write> Outcome written(const Write& write) {
     const InterruptGuard guard;
     const Result<void> result = write();
-    // Where all went well, the file is complete: nothing asks about signals while a mesh is written.
+    // On success the file is complete: writing a mesh does not check for signals.
     return result.ok() ? Outcome() : interrupted() ? interruptOutcome("nothing is written") : Outcome(result.error());
 }
 

@@ -17,7 +17,7 @@ namespace voxtact::app {
 
 namespace {
 
-/// All of `text` as a number; nothing when it is not one.
+/// Parses all of `text` as a number; empty if it is none.
 template <class Number> std::optional<Number> parseNumber(std::string_view text) {
     Number number{};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -43,7 +43,7 @@ std::string join(const std::vector<std::string>& names) {
     return text;
 }
 
-/// Refuses what is not in `available`.
+/// Refuses a name that is not in `available`.
 void requireName(const char* option, const std::string& name, const std::vector<std::string>& available) {
     if (std::find(available.begin(), available.end(), name) == available.end()) {
         refuse(option, quote(name) + " is not known; there are: " + join(available));

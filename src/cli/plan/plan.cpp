@@ -64,7 +64,7 @@ Result<void> checkOptions(const PlanOptions& options) {
     return {};
 }
 
-/// Of the shard's targets, one after the other.
+/// Plans the targets of the shard, one after the other.
 Result<std::vector<TargetPlan>> planAll(const PlanOptions& options, const PlanInputs& inputs, cpu::HostEngine& engine) {
     const auto [first, end] = options.shard.range(inputs.targets.size());
     Progress progress(options.progress, "voxtact plan: targets", end - first);
@@ -139,7 +139,7 @@ class PictureDevice {
                                  [](std::uint32_t /*done*/, std::uint32_t /*rows*/) { return !interrupted(); }));
         return png.str();
     }
-    /// What validation has said, which is complete once the device is closed.
+    /// Validation messages, complete once the device is closed.
     [[nodiscard]] Outcome close() {
         session_.reset();
         return messages_ ? validationOutcome(*messages_) : Outcome();
