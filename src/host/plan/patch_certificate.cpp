@@ -83,7 +83,7 @@ bool PatchCertificate::isApart(const DirectionPatch& patch, double longest, Open
     return apart;
 }
 
-void PatchCertificate::look(const DirectionPatch& patch, Open open, std::vector<EntryTriangle>& triangles) {
+void PatchCertificate::certify(const DirectionPatch& patch, Open open, std::vector<EntryTriangle>& triangles) {
     const Contents contents = contentsOf(patch);
     if (!contents.some || scene_.givenUp()) {
         return;
@@ -99,8 +99,8 @@ void PatchCertificate::look(const DirectionPatch& patch, Open open, std::vector<
     DirectionPatch first = patch;
     DirectionPatch second = patch;
     first.hi[axis] = second.lo[axis] = patch.lo[axis] + patch.cells(axis) / 2;
-    look(first, open, triangles);
-    look(second, std::move(open), triangles);
+    certify(first, open, triangles);
+    certify(second, std::move(open), triangles);
 }
 
 /// The upper bound of the search is approximate for rotated objects and only ends the search; the lower bound accounts
@@ -157,7 +157,7 @@ void PatchCertificate::measure(const DirectionPatch& cell, std::vector<EntryTria
 }
 
 void PatchCertificate::run(const DirectionPatch& patch, std::vector<EntryTriangle>& triangles) {
-    look(patch, Open(scene_.obstacles.size()), triangles);
+    certify(patch, Open(scene_.obstacles.size()), triangles);
     if (!scene_.task.triangleDistances) {
         return;
     }

@@ -54,7 +54,7 @@ class PatchCertificate {
     /// Calls `visit(corners, place)` for the triangles of a patch.
     template <class Visit> void forTriangles(const DirectionPatch& patch, const Visit& visit) const;
     [[nodiscard]] bool isApart(const DirectionPatch& patch, double longest, Open& open);
-    void look(const DirectionPatch& patch, Open open, std::vector<EntryTriangle>& triangles);
+    void certify(const DirectionPatch& patch, Open open, std::vector<EntryTriangle>& triangles);
     /// All positions of the axis in a cone, from entries up to the longest.
     [[nodiscard]] Sweep sweepOf(const DirectionCone& cone) const;
     /// mm: lower bound of the distance of all paths in a cell, up to `most`.

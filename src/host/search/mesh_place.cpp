@@ -2,7 +2,7 @@
 #include "host/search/mesh_place.h"
 #include "core/base/infinity.h"
 #include "core/geometry/recentre.h"
-#include "host/search/cells/cluster_sieve.h"
+#include "host/search/cells/cluster_culling.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

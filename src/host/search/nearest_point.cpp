@@ -172,7 +172,7 @@ class OpaqueSearch {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             cells.hi[axis] = std::min(cells.hi[axis], squares.last[axis]);
         }
-        sieveNear({known, cells, squares.of, worthwhile()}, memory_.cells);
+        cullNear({known, cells, squares.of, worthwhile()}, memory_.cells);
         double least = worthwhile();
         NodePlace nearest{-1, -1, -1};
         forKept(cells, least, [&](double square, const NodePlace& cell) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/infinity.h"
-#include "host/search/cells/cell_sieve.h"
+#include "host/search/cells/cell_culling.h"
 #include "host/search/cells/cell_walk.h"
 #include "host/search/label_part.h"
 #include "host/search/mesh_place.h"
@@ -27,7 +27,7 @@ struct OpaquePoint {
 /// Scratch memory of the search for an opaque point. Contents have no meaning between calls.
 struct NearMemory {
     PieceRows& rows; ///< empty, before and after
-    SievedCells& cells;
+    RemainingCells& cells;
     WalkRows& walks;
 };
 

@@ -3,9 +3,9 @@
 
 #include "core/base/infinity.h"
 #include "host/cancel.h"
+#include "host/search/cells/cell_culling.h"
 #include "host/search/cells/cell_piece.h"
-#include "host/search/cells/cell_sieve.h"
-#include "host/search/cells/piece_look.h"
+#include "host/search/cells/piece_distance.h"
 #include "host/search/cells/piece_rows.h"
 #include "host/search/cells/volume_boxes.h"
 #include "host/search/found.h"
@@ -113,8 +113,8 @@ class ClosestSearch {
     template <class Bound> bool keep(Pair& pair, const Bound& bound);
     /// Prunes by the distance along a direction whose minimum dot product with opaque points is known.
     bool keepAlong(Pair& pair, const Direction& along, double least);
-    /// Prunes by `sieve(job)`, which returns the remaining triangles of a pair.
-    template <class Sieve> bool keepBy(Pair& pair, const Sieve& sieve);
+    /// Prunes by `cull(job)`, which returns the remaining triangles of a pair.
+    template <class Culling> bool keepBy(Pair& pair, const Culling& cull);
     bool keepByPiece(Pair& pair, const CellPiece& piece, const PieceBounds& bounds);
 
     MeshPlace* mesh_ = nullptr;
@@ -129,7 +129,7 @@ class ClosestSearch {
     std::uint64_t stepsInDoubt_ = 0;     ///< since the lower bound was known
     std::array<double, 32> diameters_{}; ///< mm, of boxes by their shift
     PointList corners_;                  ///< of the triangles at hand
-    SievedCells cells_;
+    RemainingCells cells_;
     PieceRows rows_;
     WalkRows walks_;
     std::vector<Pair> offered_;

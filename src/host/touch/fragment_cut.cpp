@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host/touch/fragment_look.h"
+#include "host/touch/fragment_filter.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "host/touch/fragment_cut.cpp"
@@ -79,10 +79,10 @@ HWY_INLINE void cut(std::size_t axis, bool above, FragmentV limit, Outline& outl
 
 /// Fragments that are anywhere among the lanes.
 struct Scattered {
-    const FragmentLook::Lanes& lanes;
+    const FragmentFilter::Lanes& lanes;
     hn::Vec<FragmentWhole> number;
 
-    [[nodiscard]] HWY_INLINE FragmentV of(const FragmentLook::Lanes::Each<float>& each) const {
+    [[nodiscard]] HWY_INLINE FragmentV of(const FragmentFilter::Lanes::Each<float>& each) const {
         return hn::GatherIndex(FragmentFloats(), each.data(), number);
     }
     [[nodiscard]] HWY_INLINE AlongCell cell(std::size_t axis, std::int32_t size) const {
@@ -175,7 +175,7 @@ HWY_INLINE FragmentMask hasNone(const shader::OpacityBounds& bounds, const Cells
 }
 
 HWY_INLINE void cutSome(const shader::CertifiedItem& item, const shader::OpacityBounds& bounds,
-                        const std::int32_t* numbers, std::size_t count, FragmentLook::Lanes& lanes) {
+                        const std::int32_t* numbers, std::size_t count, FragmentFilter::Lanes& lanes) {
     const FragmentFloats d;
     const FragmentWords words;
     const Scattered fragments{lanes, hn::LoadU(FragmentWhole(), numbers)};
@@ -194,8 +194,8 @@ HWY_INLINE void cutSome(const shader::CertifiedItem& item, const shader::Opacity
     const auto wordsOf = [&](FragmentMask mask) {
         return hn::IfThenElseZero(hn::RebindMask(words, hn::AndNot(outline.irregular, mask)), hn::Set(words, 1));
     };
-    std::array<std::uint32_t, FragmentLook::kMostLanes> isCertain;
-    std::array<std::uint32_t, FragmentLook::kMostLanes> isNone;
+    std::array<std::uint32_t, FragmentFilter::kMostLanes> isCertain;
+    std::array<std::uint32_t, FragmentFilter::kMostLanes> isNone;
     hn::StoreU(wordsOf(certain), words, isCertain.data());
     hn::StoreU(wordsOf(none), words, isNone.data());
     for (std::size_t lane = 0; lane < hn::Lanes(d) && lane < count; ++lane) {
@@ -204,8 +204,8 @@ HWY_INLINE void cutSome(const shader::CertifiedItem& item, const shader::Opacity
     }
 }
 
-void cutAll(const shader::CertifiedItem& item, const shader::OpacityBounds& bounds, const FragmentLook::Chosen& chosen,
-            FragmentLook::Lanes& lanes) {
+void cutAll(const shader::CertifiedItem& item, const shader::OpacityBounds& bounds,
+            const FragmentFilter::Chosen& chosen, FragmentFilter::Lanes& lanes) {
     for (std::size_t i = 0; i < chosen.count; i += hn::Lanes(FragmentFloats())) {
         cutSome(item, bounds, chosen.number.data() + i, chosen.count - i, lanes);
     }
@@ -222,7 +222,7 @@ namespace voxtact::cpu {
 HWY_EXPORT(cutAll);
 
 void cutFragments(const shader::CertifiedItem& item, const shader::OpacityBounds& bounds,
-                  const FragmentLook::Chosen& chosen, FragmentLook::Lanes& lanes) noexcept {
+                  const FragmentFilter::Chosen& chosen, FragmentFilter::Lanes& lanes) noexcept {
     HWY_DYNAMIC_DISPATCH(cutAll)(item, bounds, chosen, lanes);
 }
 

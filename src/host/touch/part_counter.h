@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/touch/cells/volume_cells.h"
-#include "host/touch/fragment_look.h"
+#include "host/touch/fragment_filter.h"
 
 #include <array>
 #include <cstddef>
@@ -27,23 +27,23 @@ template <class Kept> class PartCounter {
     PartCounter(const CertifiedJob& job, const VolumeCells<Kept>& cells)
         : cells_(cells), item_(job.occupancy.item()), opaque_(job.occupancy.opaque()) {}
 
-    [[nodiscard]] bool full() const { return look_.full(); }
+    [[nodiscard]] bool full() const { return filter_.full(); }
     /// Adds a fragment; expects room. `passes`: certifiedClip() certainly leaves a part of it.
     void add(const Triangle& triangle, const Place& cell, const BrickCells& known, bool passes) {
         const auto corners = cells_.corners(cell[0], cell[1], cell[2], known);
-        waiting_[look_.count()] = {triangle, cell, corners};
-        look_.add({triangle.corners, triangle.delta, cell, corners, passes});
+        waiting_[filter_.count()] = {triangle, cell, corners};
+        filter_.add({triangle.corners, triangle.delta, cell, corners, passes});
     }
     /// Counts those that were added since the last time. Calls `again(triangle, cell)` for those that the first place
     /// of their triangles leaves undecided: the verdict when they are placed precisely.
     template <class Again> [[nodiscard]] CertifiedTally count(const Again& again) {
-        const std::size_t count = look_.count();
-        look_.look(item_, opaque_.bounds);
+        const std::size_t count = filter_.count();
+        filter_.test(item_, opaque_.bounds);
         CertifiedTally tally;
         for (std::size_t i = 0; i < count; ++i) {
-            const int verdict = look_.isNone(i)      ? CERTIFIED_NONE
-                                : look_.isCertain(i) ? CERTIFIED_CERTAIN
-                                                     : decide(waiting_[i], again);
+            const int verdict = filter_.isNone(i)      ? CERTIFIED_NONE
+                                : filter_.isCertain(i) ? CERTIFIED_CERTAIN
+                                                       : decide(waiting_[i], again);
             tally.certain += verdict == CERTIFIED_CERTAIN ? 1 : 0;
             tally.undecided = tally.undecided || verdict == CERTIFIED_UNDECIDED;
         }
@@ -91,8 +91,8 @@ template <class Kept> class PartCounter {
     const VolumeCells<Kept>& cells_;
     shader::CertifiedItem item_;
     shader::OpaqueValues opaque_;
-    FragmentLook look_;
-    std::array<Waiting, FragmentLook::kMost> waiting_;
+    FragmentFilter filter_;
+    std::array<Waiting, FragmentFilter::kMost> waiting_;
 };
 
 } // namespace voxtact::cpu

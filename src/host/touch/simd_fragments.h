@@ -8,7 +8,7 @@
 #endif
 
 #include "host/simd_exact.h"
-#include "host/touch/fragment_look.h"
+#include "host/touch/fragment_filter.h"
 
 #include <hwy/highway.h>
 
@@ -21,7 +21,7 @@ namespace voxtact::cpu {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using FragmentFloats = hn::CappedTag<float, FragmentLook::kMostLanes>;
+using FragmentFloats = hn::CappedTag<float, FragmentFilter::kMostLanes>;
 using FragmentV = hn::Vec<FragmentFloats>;
 using FragmentMask = hn::Mask<FragmentFloats>;
 using FragmentWhole = hn::RebindToSigned<FragmentFloats>;

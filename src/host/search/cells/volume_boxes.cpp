@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "host/search/cells/volume_boxes.h"
-#include "host/search/cells/cell_sieve.h"
+#include "host/search/cells/cell_culling.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -36,14 +36,14 @@ unsigned blockWithin(const CellBits& bits, const CellBlock& block) {
 
 } // namespace
 
-BlockLook::Known BlockLook::find(const std::array<std::int32_t, 3>& brick) const {
+BlockLookup::Known BlockLookup::find(const std::array<std::int32_t, 3>& brick) const {
     if (!occupancy_.mayBeOpaque(occupancy_.brickNumber(brick))) {
         return {};
     }
     return {&occupancy_.cells(volume_, brick).mayBeOpaque, &occupancy_.allOpaque(volume_, brick)};
 }
 
-BlockBits BlockLook::ofOne(const CellBlock& block) {
+BlockBits BlockLookup::ofOne(const CellBlock& block) {
     if (block.brick != brick_) {
         const auto brickOf = [&](std::size_t axis) { return (block.first[axis] + 1) >> kBrickShift; };
         known_ = find({brickOf(0), brickOf(1), brickOf(2)});
@@ -54,7 +54,7 @@ BlockBits BlockLook::ofOne(const CellBlock& block) {
                : BlockBits{blockWithin(*known_.mayBeOpaque, block), blockWithin(*known_.allOpaque, block)};
 }
 
-BlockBits BlockLook::ofSeveral(const CellBlock& block) const {
+BlockBits BlockLookup::ofSeveral(const CellBlock& block) const {
     const auto second = [&](unsigned bits) { return (block.cells & bits) != 0 ? 1 : 0; };
     const CellBox cells{
         block.first,

@@ -37,10 +37,10 @@ struct BlockBits {
 };
 
 /// Looks up the occupancy of blocks. Not thread-safe.
-class BlockLook {
+class BlockLookup {
   public:
     /// Both must outlive it.
-    BlockLook(const VolumeImpl& volume, const CertifiedOccupancy& occupancy) noexcept
+    BlockLookup(const VolumeImpl& volume, const CertifiedOccupancy& occupancy) noexcept
         : volume_(volume), occupancy_(occupancy) {}
 
     /// Returns the occupancy of a block in the domain.

@@ -319,7 +319,7 @@ void FineRun::add(const shader::CertifiedVertex& a, const shader::CertifiedVerte
     ++count_;
 }
 
-void FineRun::look(const shader::CertifiedItem& item, const std::array<std::int32_t, 3>& bricks) noexcept {
+void FineRun::test(const shader::CertifiedItem& item, const std::array<std::int32_t, 3>& bricks) noexcept {
     HWY_DYNAMIC_DISPATCH(lookAt)(item, bricks, triangles_, count_);
     count_ = 0;
     asked_ = 0;

@@ -34,7 +34,7 @@ class FineRun {
     void add(const shader::CertifiedVertex& a, const shader::CertifiedVertex& b,
              const shader::CertifiedVertex& c) noexcept;
     /// Tests the triangles added since the last call. `bricks`: number of the volume's bricks along each axis.
-    void look(const shader::CertifiedItem& item, const std::array<std::int32_t, 3>& bricks) noexcept;
+    void test(const shader::CertifiedItem& item, const std::array<std::int32_t, 3>& bricks) noexcept;
 
     /// Returns true if triangle i is small and precise enough for certifiedOverlap().
     [[nodiscard]] bool isSmall(std::size_t i) const noexcept { return triangles_.small[i] != 0; }

@@ -34,7 +34,7 @@ class RunCounter {
                                       const Large& large, const Open& open) {
         const std::size_t first = placed.begin(run);
         const std::size_t triangles = add(placed, first);
-        small_.look(job_.occupancy.item(), job_.occupancy.bricks());
+        small_.test(job_.occupancy.item(), job_.occupancy.bricks());
         std::uint64_t certain = 0;
         for (std::size_t i = 0; i < triangles; ++i) {
             left_[i] = {};
@@ -93,7 +93,7 @@ class RunCounter {
     }
 
     const CertifiedJob& job_;
-    BlockLook blocks_;
+    BlockLookup blocks_;
     FineRun small_;
     std::array<BlockBits, kRunTriangles> left_{}; ///< of each triangle, the cells that are still to be decided
 };

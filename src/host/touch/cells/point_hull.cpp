@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host/touch/cells/run_look.h"
+#include "host/touch/cells/point_hull.h"
 #include "core/base/infinity.h"
 
 #include <cmath>

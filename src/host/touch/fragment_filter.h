@@ -11,7 +11,7 @@ namespace voxtact::cpu {
 
 /// Decides many fragments at a time with few comparisons: first by the range of the interpolant in the box of the
 /// triangle's part in the cell, then by the corners of that part. Not thread-safe.
-class FragmentLook {
+class FragmentFilter {
   public:
     static constexpr std::size_t kMost = 128;
     static constexpr std::size_t kMostLanes = 16;
@@ -30,7 +30,7 @@ class FragmentLook {
     /// The next fragment; expects room.
     void add(const Fragment& fragment) noexcept;
     /// Tests the fragments added since the last call, and empties the list.
-    void look(const shader::CertifiedItem& item, const shader::OpacityBounds& bounds) noexcept;
+    void test(const shader::CertifiedItem& item, const shader::OpacityBounds& bounds) noexcept;
 
     /// For the last tested fragments: true if certifiedBegin() leaves nothing, or certifiedSettle() finds nothing
     /// opaque.
@@ -66,6 +66,6 @@ class FragmentLook {
 
 /// Second half of a test: by the corners of the chosen fragments.
 void cutFragments(const shader::CertifiedItem& item, const shader::OpacityBounds& bounds,
-                  const FragmentLook::Chosen& chosen, FragmentLook::Lanes& lanes) noexcept;
+                  const FragmentFilter::Chosen& chosen, FragmentFilter::Lanes& lanes) noexcept;
 
 } // namespace voxtact::cpu

@@ -14,10 +14,10 @@ namespace voxtact::cpu {
 
 /// The cells that the triangles in boxes of object space may pass through: those of certifiedBoxBounds(), and some
 /// more, where what a box of a mesh has in common with all others is done once.
-class BoxLook {
+class BoxCells {
   public:
     /// `pair` must outlive it.
-    BoxLook(const shader::CertifiedItem& item, const shader::CertifiedPair& pair, const ClusterTree& tree) noexcept;
+    BoxCells(const shader::CertifiedItem& item, const shader::CertifiedPair& pair, const ClusterTree& tree) noexcept;
 
     /// False: no box can be tested.
     [[nodiscard]] bool usable() const noexcept { return usable_; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host/search/cells/piece_look.h"
+#include "host/search/cells/piece_distance.h"
 #include "core/base/infinity.h"
 #include "host/search/nearest_point.h"
 
@@ -83,7 +83,8 @@ CellPiece pieceAt(const PartCell& cell, const PiecePlace& place) noexcept {
 }
 
 /// Goes from the triangle to the opaque part and back, each time to about the closest point.
-dvec3 PieceLook::run(const PiecePlace& place, const DistanceError& error, std::uint32_t number, Found& found) const {
+dvec3 PieceDistance::run(const PiecePlace& place, const DistanceError& error, std::uint32_t number,
+                         Found& found) const {
     constexpr int kMostTurns = 4;
     const VolumeSpace& space = part_.space;
     dvec3 onMesh = mesh_.near(triangle_, space.toWorld(piece_.middle()));
@@ -121,7 +122,7 @@ dvec3 PieceLook::run(const PiecePlace& place, const DistanceError& error, std::u
 
 /// An opaque point on the way from one corner of a piece to another: no point of that way is farther from the triangle
 /// than its farther end.
-void PieceLook::between(const DistanceError& error, std::uint32_t number, Found& found) const {
+void PieceDistance::between(const DistanceError& error, std::uint32_t number, Found& found) const {
     constexpr int kMostHalvings = 24;
     if (!part_.intervals.certainlyMeet(piece_.lo() + 2 * cell_.error, piece_.hi() - 2 * cell_.error)) {
         return;

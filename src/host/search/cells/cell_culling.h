@@ -13,7 +13,7 @@
 namespace voxtact::cpu {
 
 /// Cells of a brick in a box that may be opaque, numbered in the box.
-struct CellSieveJob {
+struct CellCullingJob {
     const BrickCells& known;
     const CellBox& cells;
     glm::dvec3 along{}; ///< from one cell to the next one, what a normal's product with their points changes by
@@ -25,7 +25,7 @@ struct CellSieveJob {
 };
 
 /// Cells that remain after pruning.
-struct alignas(kRowAlignment) SievedCells {
+struct alignas(kRowAlignment) RemainingCells {
     static constexpr std::size_t kRows = kBrickSide * kBrickSide;
     std::array<double, kRows * kBrickSide> lo{}; ///< mm, lower bounds of the remaining cells, row by row
     std::array<std::uint8_t, kRows> kept{};      ///< of the rows that are in the box, a bit for each
@@ -33,7 +33,7 @@ struct alignas(kRowAlignment) SievedCells {
 };
 
 /// Gives the same result on every processor, like the functions below.
-void sieveCells(const CellSieveJob& job, SievedCells& out);
+void cullCells(const CellCullingJob& job, RemainingCells& out);
 
 /// Cells of a brick in a box that may be opaque, by their distance from a point along each axis.
 struct NearCellsJob {
@@ -44,7 +44,7 @@ struct NearCellsJob {
 };
 
 /// `lo` is in mm^2 here, and there is no `leastGone`.
-void sieveNear(const NearCellsJob& job, SievedCells& out);
+void cullNear(const NearCellsJob& job, RemainingCells& out);
 /// Returns the minimum dot product of `along` with the position of a cell in the brick.
 [[nodiscard]] double leastCell(const BrickCells& known, const CellBox& cells, const glm::dvec3& along);
 

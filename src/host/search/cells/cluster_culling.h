@@ -25,7 +25,7 @@ struct LeastAlong {
 };
 
 /// Some triangles of a cluster that is not swept.
-struct SieveJob {
+struct CullingJob {
     const PlacedCluster& triangles;
     std::uint64_t among = 0; ///< a bit for each
     double lo = 0;           ///< mm: none is nearer
@@ -34,7 +34,7 @@ struct SieveJob {
 };
 
 /// Triangles that remain after pruning.
-struct Sieved {
+struct RemainingTriangles {
     std::uint64_t kept = 0;
     std::uint8_t nearest = 0;     ///< of the remaining triangles
     double least = kInfinity;     ///< mm: none of these is nearer
@@ -49,12 +49,12 @@ struct VoxelBox3 {
 
 /// Prunes each triangle by its distance along some directions. Gives the same result on every processor, like the
 /// functions below.
-[[nodiscard]] Sieved sieveAlong(const SieveJob& job, std::span<const LeastAlong> directions);
+[[nodiscard]] RemainingTriangles cullAlong(const CullingJob& job, std::span<const LeastAlong> directions);
 /// Prunes each triangle by its box, and along its direction to the middle of the other box.
-[[nodiscard]] Sieved sieveByBox(const SieveJob& job, const VolumeSpace& space, const VoxelBox3& box);
+[[nodiscard]] RemainingTriangles cullByBox(const CullingJob& job, const VolumeSpace& space, const VoxelBox3& box);
 /// Prunes each triangle along a direction, and then along its direction to the middle of a piece.
-[[nodiscard]] Sieved sieveByPiece(const SieveJob& job, const VolumeSpace& space, const PieceBounds& piece,
-                                  const LeastAlong& direction);
+[[nodiscard]] RemainingTriangles cullByPiece(const CullingJob& job, const VolumeSpace& space, const PieceBounds& piece,
+                                             const LeastAlong& direction);
 
 /// Inputs of the transformation of a cluster: rows aligned to kMeshAlignment, padded as in MeshImpl.
 struct PlaceJob {

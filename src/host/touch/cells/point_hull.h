@@ -89,7 +89,7 @@ class TriangleHull {
 [[nodiscard]] bool hullMayMeet(const shader::OpaqueValues& opaque, const PointHull& hull,
                                const shader::CertifiedCell& cell, std::int32_t x, std::int32_t y,
                                std::int32_t z) noexcept;
-/// Half of that look: by the interpolant's linear part, where certifiedPartMayBeOpaque() has been asked already.
+/// Second half of that test: by the interpolant's linear part, after certifiedPartMayBeOpaque().
 [[nodiscard]] bool hullMayMeetLinearly(const shader::OpaqueValues& opaque, const PointHull& hull,
                                        const shader::CertifiedCell& cell, std::int32_t x, std::int32_t y,
                                        std::int32_t z) noexcept;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "host/touch/cells/box_look.h"
+#include "host/touch/cells/box_cells.h"
 #include "core/geometry/clusters.h"
 
 #include <span>
 
 namespace voxtact::cpu {
 
-BoxLook::BoxLook(const shader::CertifiedItem& item, const shader::CertifiedPair& pair, const ClusterTree& tree) noexcept
+BoxCells::BoxCells(const shader::CertifiedItem& item, const shader::CertifiedPair& pair,
+                   const ClusterTree& tree) noexcept
     : pair_(pair), last_{static_cast<float>(item.sizeX - 1), static_cast<float>(item.sizeY - 1),
                          static_cast<float>(item.sizeZ - 1)} {
     const std::span<const RunBox> top = tree.boxes(tree.levels() - 1);

@@ -64,7 +64,7 @@ struct DistanceTrackerImpl {
     TrackedDistance track(const BatchItem& item, double threshold);
 
   private:
-    [[nodiscard]] TrackedDistance look(const BatchItem& item, double threshold, double ahead);
+    [[nodiscard]] TrackedDistance search(const BatchItem& item, double threshold, double ahead);
 
     TrackerDesc desc;
     ThreadMemory memory;
@@ -91,14 +91,14 @@ TrackedDistance DistanceTrackerImpl::track(const BatchItem& item, double thresho
         return out;
     }
     scene = {}; // a failed search leaves no known distance
-    const TrackedDistance out = look(item, threshold, kAhead * step);
+    const TrackedDistance out = search(item, threshold, kAhead * step);
     scene = now;
     lookedAt = pose;
     known = out.bounds;
     return out;
 }
 
-TrackedDistance DistanceTrackerImpl::look(const BatchItem& item, double threshold, double ahead) {
+TrackedDistance DistanceTrackerImpl::search(const BatchItem& item, double threshold, double ahead) {
     constexpr double kLeastAhead = 0.25; // mm
     constexpr double kRelative = 0.25;
     TrackedDistance out;
