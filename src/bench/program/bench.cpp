@@ -17,8 +17,8 @@ using namespace lab;
 namespace {
 
 constexpr const char* kBenchFooter =
-    R"(Compares engines on one scene in one run: verifies their answers, then times them
-in turn. Exit status 3: the engines disagree. docs/lab.md describes the
+    R"(Compares engines on one scene in one run: verifies their answers, then times
+them in turn. Exit status 3: the engines disagree. docs/lab.md describes the
 measurements and their columns.
 
 Examples:

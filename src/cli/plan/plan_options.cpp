@@ -40,7 +40,7 @@ void addTargetOptions(CLI::App& parser, const std::shared_ptr<PlanOptions>& opti
             options->targets.push_back(text);
             return {};
         },
-        "target: a point in mm, or the centre of a label; repeatable", "x,y,z|LABEL");
+        "target: a point (mm) or a label's centre; repeatable", "x,y,z|LABEL");
     parser.add_option("--target-label", options->targetLabels, "targets: the centres of these labels")
         ->delimiter(',')
         ->type_name("LABEL,...");

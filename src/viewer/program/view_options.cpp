@@ -17,13 +17,13 @@ namespace voxtact::app {
 namespace {
 
 constexpr const char* kViewFooter =
-    R"(Shows the volume, the meshes and three slices; answers after each change whether
-they touch. F1 shows keys and mouse. Default: the builtin head and scalpel. Needs
-an X11 display and a Vulkan driver. --device cpu answers on the host.
+    R"(Shows the volume, the meshes and three slices, and whether they touch after each
+change. F1 shows keys and mouse. Default: the builtin head and scalpel.
+Needs an X11 display and a Vulkan driver. --device cpu answers on the host.
 
 Examples:
   voxtact view
-  voxtact view --volume head.nii.gz --preset mr --mesh tool.stl --poses poses.txt
+  voxtact view --volume head.nii.gz --preset mr --mesh tool.stl
   voxtact view --session session.json)";
 
 std::vector<const char*> curvePresetNames() {
