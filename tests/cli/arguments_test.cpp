@@ -60,8 +60,13 @@ TEST_F(ArgumentsTest, HelpFitsAScreen) {
     for (std::size_t i = 0; i < commands.size(); ++i) {
         Arguments asked = commands[i];
         asked.push_back("--help");
-        const std::string help = output(asked);
+        const Ran ran = run(asked);
+        if (ran.err.find("is not beside this program") != std::string::npos) {
+            continue; // a build without the window or the measurements
+        }
+        const std::string& help = ran.out;
         const auto lines = linesOf(help);
+        EXPECT_FALSE(lines.empty()) << ran.err;
         EXPECT_LE(lines.size(), kMaxLines) << testing::PrintToString(asked);
         for (const std::string& line : lines) {
             EXPECT_LE(line.size(), kMaxColumns) << testing::PrintToString(asked) << line;
