@@ -48,8 +48,7 @@ MANUAL = {
 }
 TEXTS = ["docs/*.md", "README.md", "CONTRIBUTING.md", "CHANGELOG.md"]
 SOURCES = ["include", "src", "shaders", "tests", "scripts", "docs/example"]
-# Their comments are not clean yet.
-SKIPPED = ("src/python/", "src/c/", "include/voxtact/voxtact", "scripts/check_words.py", "tests/fuzz/corpus/")
+SKIPPED = ("scripts/check_words.py", "tests/fuzz/corpus/")
 SLASHES = {".h", ".cpp", ".c", ".glsl", ".comp", ".vert", ".frag"}
 HASHES = {".py", ".sh", ".cmake", ".txt"}
 PRINTING = ("src/cli/", "src/viewer/", "src/bench/", "src/core/facts/")

@@ -7,55 +7,55 @@
 #include <cstdint>
 #include <vector>
 
-/// How much: plain types, the same for whatever measures.
+/// Contact area: plain types, the same for every engine.
 ///
-/// The contact area of a pair is the area in world mm^2 of those points of the mesh's surface that are opaque: of its
-/// triangles, each for itself (a closed mesh is not filled, and where two triangles lie on each other both count), in
-/// the volume's closed box, out to the outermost voxels' faces, where the trilinear interpolant's opacity reaches the
-/// threshold. It does not depend on how the surface is cut into triangles. It is what the projection `certified`
-/// decides about: where that says that a pair certainly does not touch, the area is 0. What touches may have an area of
-/// 0, too: a vertex that just gets there.
+/// The contact area of a pair is the area, in world mm^2, of the points of the mesh's surface that are opaque. A point
+/// is opaque if it lies in the volume's closed box, out to the outer faces of the outermost voxels, and the opacity of
+/// the trilinear interpolant reaches the threshold there. Every triangle counts: a closed mesh is not filled, and
+/// coincident triangles count twice. The area does not depend on the triangulation. It agrees with the projection
+/// `certified`: the area of a pair that certainly does not touch is 0. A touching pair may have area 0, too: a vertex
+/// may just reach the opaque region.
 namespace voxtact {
 
-/// mm^2: how near to each other bounds are brought, where nothing else is asked for.
+/// Default tolerance, mm^2: maximum upper - lower.
 inline constexpr double kDefaultAreaTolerance = 0.1;
 
 /// The contact area of one pair.
 struct PairArea {
-    std::uint32_t pair = 0; ///< number of the pair in its batch
-    std::uint32_t item = 0; ///< number of the BatchItem that the pair came from
-    std::uint32_t pose = 0; ///< number of the pose within that item
+    std::uint32_t pair = 0; ///< index of the pair in its batch
+    std::uint32_t item = 0; ///< index of the BatchItem of the pair
+    std::uint32_t pose = 0; ///< index of the pose in that item
     Bounds bounds;          ///< mm^2
-    StopReason end{};       ///< why they are no nearer to each other
+    StopReason end{};       ///< why the search stopped
 };
 
-/// The area of one pair in what is opaque and has a label: in the boxes around its voxels' centres, where labelAt()
-/// says that label. The areas of all labels together are the pair's.
+/// The area of one pair that is opaque and has a label: inside the boxes around the voxel centres for which labelAt()
+/// returns the label. The areas of all labels add up to that of the pair.
 struct LabelArea {
-    std::uint32_t pair = 0; ///< number of the pair in its batch
-    std::uint32_t item = 0; ///< number of the BatchItem that the pair came from
-    std::uint32_t pose = 0; ///< number of the pose within that item
+    std::uint32_t pair = 0; ///< index of the pair in its batch
+    std::uint32_t item = 0; ///< index of the BatchItem of the pair
+    std::uint32_t pose = 0; ///< index of the pose in that item
     std::int32_t label = 0; ///< as in LabelData::values
     Bounds bounds;          ///< mm^2
-    StopReason end{};       ///< why they are no nearer to each other
+    StopReason end{};       ///< why the search stopped
 };
 
-/// The contact area of one triangle of a pair. Triangles that are not listed have none.
+/// The contact area of one triangle of a pair. Triangles that are not listed have area 0.
 struct TriangleArea {
-    std::uint32_t pair = 0;     ///< number of the pair in its batch
-    std::uint32_t item = 0;     ///< number of the BatchItem that the pair came from
-    std::uint32_t pose = 0;     ///< number of the pose within that item
-    std::uint32_t triangle = 0; ///< number in the mesh
-    double whole = 0;           ///< mm^2: the area of all of it, at its pose, no bound; infinite where `hi` is
+    std::uint32_t pair = 0;     ///< index of the pair in its batch
+    std::uint32_t item = 0;     ///< index of the BatchItem of the pair
+    std::uint32_t pose = 0;     ///< index of the pose in that item
+    std::uint32_t triangle = 0; ///< index of the triangle in the mesh
+    double whole = 0;           ///< mm^2: area of the whole triangle at its pose, not a bound; may be infinite
     Bounds bounds;              ///< mm^2
 };
 
-/// What a batch gave.
+/// The answer for a batch.
 struct AreaAnswer {
-    std::vector<PairArea> pairs;         ///< in the order of the batch; empty where labels were asked for
-    std::vector<TriangleArea> triangles; ///< those that may have an area, by pair, then by number, if asked for
-    std::vector<LabelArea> labels;       ///< by pair, then in the order that the labels were asked for
-    double wallMilliseconds = 0;         ///< of the whole call
+    std::vector<PairArea> pairs;         ///< in the order of the batch; empty if labels were requested
+    std::vector<TriangleArea> triangles; ///< triangles that may have an area, by pair, then by index; if requested
+    std::vector<LabelArea> labels;       ///< by pair, then in the requested order
+    double wallMilliseconds = 0;         ///< duration of the whole call
 };
 
 } // namespace voxtact

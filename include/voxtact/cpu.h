@@ -13,12 +13,11 @@
 #include <string>
 #include <vector>
 
-/// The host engine (target voxtact::cpu): the same questions answered without a device, by the same pixels and the
-/// same arithmetic as the counting method `compute` with `exact` filtering (src/exact/exact.h). Nothing here needs
-/// Vulkan. Everything that is skipped (clusters of triangles, triangles, spans) is skipped only where it provably has
-/// no survivor, so that skipping never changes a count.
+/// The host engine (target voxtact::cpu): answers all questions without a device or Vulkan, with the same pixels and
+/// arithmetic as the counting method `compute` with `exact` filtering (src/exact/exact.h). Culling (of clusters,
+/// triangles and spans) removes only parts that provably have no passing fragment, so it never changes a count.
 ///
-/// Lifetime: an object must outlive the calls that use it; nothing of what it was made from is kept.
+/// Lifetime: an object must outlive the calls that use it. It keeps nothing of the data that created it.
 /// Thread-safety: const functions are safe from any thread.
 namespace voxtact::cpu {
 
@@ -31,28 +30,26 @@ struct HostEngineImpl;
 /// A 3D image on the host, with the smallest and largest value of each brick of 8^3 voxels.
 class Volume {
   public:
-    /// Refuses what checkVolume() refuses, and more than 2^23 voxels per side, which floats cannot address
-    /// (LimitExceeded). Copies the voxels.
+    /// Copies the voxels. Refuses what checkVolume() refuses, and more than 2^23 voxels per side, the range of float
+    /// coordinates (LimitExceeded).
     [[nodiscard]] VOXTACT_API static Result<Volume> create(const VolumeView& data);
     VOXTACT_API Volume(Volume&&) noexcept;
     VOXTACT_API Volume& operator=(Volume&&) noexcept;
     VOXTACT_API ~Volume();
-    /// Where the voxels are.
+    /// Returns the position of the voxels.
     [[nodiscard]] VOXTACT_API const Grid& grid() const noexcept;
 
-    /// Edits: the next call sees them. None may run on the volume meanwhile. Either all of an edit is done or,
-    /// where it is refused, nothing.
+    /// Edits: the next call uses them. No call may use the volume during an edit. A refused edit changes nothing.
     ///
-    /// Gives the voxels of a region a value in the image's own units. Refuses what voxelBounds() refuses, and a value
-    /// that the voxels' type cannot have: NaN, infinite, out of range or, for integers, not whole. Floats are rounded
-    /// to the nearest. A region without voxels is no error.
+    /// Sets the voxels of a region to a value in the image's own units. Refuses what voxelBounds() refuses, and a value
+    /// that the voxel type cannot represent: NaN, infinite, out of range or, for integers, not whole. Floats are
+    /// rounded to the nearest. A region without voxels is no error.
     [[nodiscard]] VOXTACT_API Result<void> set(const VoxelRegion& region, double value);
-    /// Replaces the voxels of a box by scalars of the type that the volume was created with, x fastest, then y, then z,
-    /// without padding; any alignment will do. Refuses a box that leaves the grid, the wrong number of bytes, and NaN
-    /// or infinite voxels.
+    /// Replaces the voxels of a box by scalars of the volume's type, x fastest, then y, then z, without padding, with
+    /// any alignment. Refuses a box outside the grid, a wrong number of bytes, and NaN or infinite voxels.
     [[nodiscard]] VOXTACT_API Result<void> write(const VoxelBox& box, std::span<const std::byte> voxels);
-    /// Copies the voxels of a box as they are now, in the form that write() takes. Refuses a box that leaves the grid,
-    /// and memory of another size than the box has (InvalidArgument).
+    /// Copies the current voxels of a box, in the layout of write(). Refuses a box outside the grid, and memory of
+    /// another size (InvalidArgument).
     [[nodiscard]] VOXTACT_API Result<void> read(const VoxelBox& box, std::span<std::byte> voxels) const;
 
     [[nodiscard]] const VolumeImpl& impl() const noexcept { return *impl_; }
@@ -77,7 +74,7 @@ class TransferFunction {
     std::unique_ptr<TransferFunctionImpl> impl_;
 };
 
-/// A triangle mesh, with its triangles in clusters. Triangles keep their numbers.
+/// A triangle mesh, with its triangles in clusters. Triangles keep their indices.
 class Mesh {
   public:
     /// Refuses what checkMesh() refuses.
@@ -85,14 +82,14 @@ class Mesh {
     VOXTACT_API Mesh(Mesh&&) noexcept;
     VOXTACT_API Mesh& operator=(Mesh&&) noexcept;
     VOXTACT_API ~Mesh();
-    /// What checkMesh() found.
+    /// Returns the facts that checkMesh() computed.
     [[nodiscard]] VOXTACT_API const MeshFacts& facts() const noexcept;
 
-    /// Bends it: vertices come elsewhere, three coordinates each in the order of MeshView::positions, and triangles
-    /// stay between them. The next call sees it; none may use the mesh meanwhile. Counts and outputs are those of a
-    /// mesh that is newly made; what is faster is that triangles stay in their clusters, whose boxes are fitted to
-    /// them: where neighbours go far apart, a new mesh is faster to ask. O(vertices + triangles). Refuses
-    /// another number of coordinates and what checkMesh() refuses; the mesh is then as it was.
+    /// Moves the vertices: three coordinates each, in the order of MeshView::positions; the triangles stay. The next
+    /// call uses the new shape; no call may use the mesh meanwhile. Answers equal those of a new mesh. Faster than a
+    /// new mesh, because triangles stay in their clusters, whose boxes are refitted; if neighbouring triangles move far
+    /// apart, queries of a new mesh are faster. O(vertices + triangles). Refuses another number of coordinates and what
+    /// checkMesh() refuses, and then changes nothing.
     [[nodiscard]] VOXTACT_API Result<void> update(std::span<const double> positions);
     [[nodiscard]] const MeshImpl& impl() const noexcept { return *impl_; }
 
@@ -103,47 +100,46 @@ class Mesh {
 
 /// One mesh at some poses against one volume under one transfer function.
 struct BatchItem {
-    const Mesh* mesh = nullptr;     ///< must be given, as all but the labels; read during a call only
-    const Volume* volume = nullptr; ///< what is touched
-    const TransferFunction* transferFunction = nullptr; ///< what of it is opaque
+    const Mesh* mesh = nullptr;                         ///< required, like all but the labels; read during a call only
+    const Volume* volume = nullptr;                     ///< the image
+    const TransferFunction* transferFunction = nullptr; ///< defines the opaque region
     std::span<const Mat4> world_from_object{};          ///< affine
-    const LabelData* labels = nullptr;                  ///< for the outputs contacts (optional) and labels
+    const LabelData* labels = nullptr;                  ///< for label questions, and the outputs labels and contacts
 };
 
 /// The pairs of one call: the items in order, each with its poses in order.
 struct Batch {
-    std::span<const BatchItem> items{};   ///< any number; answers are in their order
+    std::span<const BatchItem> items{};   ///< any number; the answers have the same order
     View view{};                          ///< at most kMaxViewport pixels per side; only for projections with a camera
     double threshold = kDefaultThreshold; ///< 0..1
-    /// Ends a call early, from any thread: once it is true, the call soon returns ErrorCode::Cancelled, with all of its
-    /// threads at rest. They look at it between cells and steps of a search; what one of them has seen is not taken
-    /// back by a flag that is false again. Where it is true when the call begins, nothing is done at all. May be null.
+    /// Ends a call early, from any thread: once it is true, the call soon returns ErrorCode::Cancelled and its threads
+    /// stop. They read it between cells and iterations; a thread that saw true stops even if the flag is reset. If it
+    /// is true at the start, the call does nothing. May be null.
     const std::atomic<bool>* cancel = nullptr;
 };
 
-/// Pixels along a side of a View, at most.
+/// Maximum number of pixels along a side of a View.
 inline constexpr std::uint32_t kMaxViewport = 16384;
 
-/// Threads that one object may have, at most.
+/// Maximum number of threads of one object.
 inline constexpr std::uint32_t kMaxThreads = 4096;
 
-/// What a DistanceTracker is made for.
+/// Options of a DistanceTracker.
 struct TrackerDesc {
-    /// mm, above 0: farther than this is never looked.
+    /// mm, above 0: search radius; larger distances are not measured.
     double maximum = std::numeric_limits<double>::infinity();
-    double resolution = kDefaultResolution; ///< of the touch, as Touch::resolution
-    std::uint64_t maxSteps = 512;           ///< of one search, at least 1: then the bounds are what they are
+    double resolution = kDefaultResolution; ///< resolution of the touch, as Touch::resolution
+    std::uint64_t maxSteps = 512;           ///< iteration limit per search, then returns the current bounds; at least 1
 };
 
-/// Follows a mesh that moves by little from call to call, as under a hand: says at every pose whether it touches, and
-/// mostly without a look. When the mesh has moved by no more than it was known to be clear, it is free, and the bounds
-/// follow from those before: the clearance changes by no more than the farthest that a point of the mesh has moved.
-/// When it is looked, then so far only as some more moves like the last one go: what an answer costs follows the
-/// speed. What is said of a touch for certain never depends on the calls before: the width of the bounds does, and
-/// whether a pose is known to be free that is else *possible*.
+/// Tracks a mesh that moves little from call to call, as in haptics: tells at every pose whether it touches, usually
+/// without a search. A mesh that moved by less than its last known distance is free, and its bounds follow from the
+/// earlier ones: the distance changes by at most the largest displacement of a point of the mesh. A search extends only
+/// as far as a few more moves like the last one, so the cost of an answer follows the speed. A certain touch never
+/// depends on earlier calls; the width of the bounds does, and so does whether a pose is free or undecided.
 ///
-/// Works on the calling thread. The first call with a volume, a transfer function or a threshold, and after an edit,
-/// prepares them and takes milliseconds. Thread-safety: one call at a time.
+/// Runs on the calling thread. The first call with a volume, transfer function or threshold, and the first after an
+/// edit, prepares them, which takes milliseconds. Thread-safety: one call at a time.
 class DistanceTracker {
   public:
     /// Refuses numbers outside the ranges of TrackerDesc.
@@ -152,9 +148,9 @@ class DistanceTracker {
     VOXTACT_API DistanceTracker& operator=(DistanceTracker&&) noexcept;
     VOXTACT_API ~DistanceTracker();
 
-    /// Of one mesh at one pose; labels are not examined. Another mesh, volume, transfer function or threshold than in
-    /// the call before, and an edit, are no error: it then looks. Refuses what HostEngine::ask() refuses, and any
-    /// number of poses but 1.
+    /// Tracks one mesh at one pose; labels are ignored. If the mesh, volume, transfer function or threshold differs
+    /// from the previous call, or after an edit, it searches. Refuses what HostEngine::ask() refuses, and any number of
+    /// poses but 1.
     [[nodiscard]] VOXTACT_API Result<TrackedDistance> track(const BatchItem& item,
                                                             double threshold = kDefaultThreshold);
 
@@ -163,36 +159,35 @@ class DistanceTracker {
     std::unique_ptr<DistanceTrackerImpl> impl_;
 };
 
-/// What must not be touched: what is opaque, what is opaque and has some labels, or all that has them.
+/// A region to avoid: the opaque region, its part with some labels, or whole labels.
 struct PlanObstacle {
-    const Volume* volume = nullptr;                     ///< must be given
-    const TransferFunction* transferFunction = nullptr; ///< what of it is opaque; null: labels at any opacity
+    const Volume* volume = nullptr;                     ///< required
+    const TransferFunction* transferFunction = nullptr; ///< defines the opaque region; null: labels at any opacity
     double threshold = kDefaultThreshold;               ///< 0..1
-    const LabelData* labels = nullptr;                  ///< on the volume's grid; null: all that is opaque
-    std::vector<std::int32_t> avoid{};                  ///< these labels
-    std::string name{};                                 ///< in messages; empty: "obstacle" and its number
+    const LabelData* labels = nullptr;                  ///< on the volume's grid; null: the whole opaque region
+    std::vector<std::int32_t> avoid{};                  ///< labels to avoid
+    std::string name{};                                 ///< used in messages; empty: "obstacle" and its index
 };
 
-/// Where paths may begin: along each direction from the target, the outermost point of something.
+/// Surface on which paths may begin: the outermost point of a region along each direction from the target.
 struct EntrySurface {
-    std::uint32_t entries = 1002;                       ///< directions: the least 10 n^2 + 2 that is no fewer
-    const Volume* volume = nullptr;                     ///< with a transfer function: of what is opaque in it
-    const TransferFunction* transferFunction = nullptr; ///< see volume
+    std::uint32_t entries = 1002;                       ///< directions; rounded up to 10 n^2 + 2
+    const Volume* volume = nullptr;                     ///< with a transfer function: its opaque region
+    const TransferFunction* transferFunction = nullptr; ///< of `volume`
     double threshold = kDefaultThreshold;               ///< 0..1
-    const LabelData* labels = nullptr;                  ///< instead of a volume: of a label
-    std::int32_t label = 0;                             ///< that one
-    double radius = 0; ///< mm, instead of both: of a ball around the target; above kNearestEntry
-    /// Paths may begin where the image ends within what is opaque, or within the label, too. There it is the image that
-    /// was cut, as a scan of a head is at the neck, and nobody knows what lies before the entry.
+    const LabelData* labels = nullptr;                  ///< instead of a volume: a label
+    std::int32_t label = 0;                             ///< label value in `labels`
+    double radius = 0; ///< mm, instead of both: radius of a ball around the target; above kNearestEntry
+    /// Paths may also begin where the image's border cuts the opaque region or the label, such as the neck in a scan of
+    /// a head. The anatomy in front of such an entry is unknown.
     bool borderEntries = false;
 };
 
-/// An instrument that is a mesh. Its surface alone counts, as everywhere.
+/// An instrument given as a mesh. Only its surface counts, as everywhere.
 struct PlanMesh {
-    const Mesh* mesh = nullptr; ///< must be given
-    Vec3 tip{};                 ///< object space: comes to the target
-    Vec3 axis{0, 0, 1}; ///< object space: from the tip to where the instrument is held; turned to the path by the
-                        ///< smallest turn
+    const Mesh* mesh = nullptr; ///< required
+    Vec3 tip{};                 ///< object space: moves to the target
+    Vec3 axis{0, 0, 1}; ///< object space: from the tip to the handle; aligned with the path by the smallest rotation
 };
 
 /// Which straight paths to a target keep clear of obstacles?
@@ -202,47 +197,46 @@ struct Plan {
     std::span<const PlanObstacle> obstacles{}; ///< at least one
     Needle needle{};                           ///< the instrument
     std::optional<PlanMesh> mesh{};            ///< instead of the needle. Triangles are then not certified
-    double margin = 0;                         ///< mm, that is to be kept
-    std::optional<double> longest{};           ///< mm, of paths
-    std::optional<double> steepest{};          ///< degrees between a path and the normal of the surface, to 90
-    bool triangleDistances = false;            ///< of a needle: EntryTriangle::clearance, for about as long again
-    double tolerance = kDefaultPlanTolerance;  ///< mm, from 1e-6 on: the search ends when the bounds are that near
-    double maximum = kDefaultPlanMaximum;      ///< mm, above 0: what is farther from a path is not measured
-    std::uint64_t maxSteps = 1U << 18U;        ///< a path that takes more is left with the bounds it has; at least 1
+    double margin = 0;                         ///< mm: minimum distance from the obstacles
+    std::optional<double> longest{};           ///< mm: maximum length of a path
+    std::optional<double> steepest{};          ///< degrees, up to 90: maximum angle to the normal of the surface
+    bool triangleDistances = false;            ///< needle only: computes EntryTriangle::clearance; doubles the time
+    double tolerance = kDefaultPlanTolerance;  ///< mm, from 1e-6 on: stop when upper - lower is at most this
+    double maximum = kDefaultPlanMaximum;      ///< mm, above 0: larger distances are not measured
+    std::uint64_t maxSteps = 1U << 18U;        ///< iteration limit per path, then the current bounds; at least 1
     const std::atomic<bool>* cancel = nullptr; ///< as Batch::cancel
 };
 
-/// Answers questions on the host. Keeps its threads from call to call, and what it makes of the last volumes and
-/// transfer functions. What it answers does not depend on the threads, nor on what else is in a batch. Where the last
-/// two calls were done sooner than another thread is woken, one that has no more to do begins on the caller's thread
-/// alone. Thread-safety: one call at a time.
+/// Answers questions on the host. Keeps its threads between calls, and the structures that it built for the last
+/// volumes and transfer functions. Answers depend neither on the number of threads nor on the rest of the batch. Calls
+/// that take less time than waking a thread run on the caller's thread alone. Thread-safety: one call at a time.
 class HostEngine {
   public:
-    /// Starts its threads. Refuses more than kMaxThreads; 0: one for each processor.
+    /// Starts the threads; 0: one per processor. Refuses more than kMaxThreads.
     [[nodiscard]] VOXTACT_API static Result<HostEngine> create(std::uint32_t threads = 0);
     VOXTACT_API HostEngine(HostEngine&&) noexcept;
     VOXTACT_API HostEngine& operator=(HostEngine&&) noexcept;
     VOXTACT_API ~HostEngine();
 
-    /// All refuse numbers of the question outside their ranges, null objects, bad poses, and a threshold outside [0,1];
-    /// those that are about labels refuse items without a label map, or with one on another grid (Unsupported), and
-    /// more labels than kMaxMeasuredLabels (LimitExceeded).
+    /// All overloads refuse numbers outside the ranges of the question, null objects, bad poses, and a threshold
+    /// outside [0,1]. Questions with labels refuse items without a label map or with one on another grid (Unsupported),
+    /// and more labels than kMaxMeasuredLabels (LimitExceeded).
     [[nodiscard]] VOXTACT_API Result<TouchAnswer> ask(const Touch& question, const Batch& batch);
-    /// With CountingMethod::Cpu; gpuMilliseconds is 0. Refuses a singular camera, a viewport of 0 or beyond
-    /// kMaxViewport (dominant-axis: a volume that needs one), and outputs with stopAtFirst. dominant-axis sets its
-    /// triangles up one by one: a good deal slower than a view for meshes of small triangles.
+    /// Counts with CountingMethod::Cpu; gpuMilliseconds is 0. Refuses a singular camera, a viewport of 0 or beyond
+    /// kMaxViewport (dominant-axis: a volume that needs one), and outputs with stopAtFirst. dominant-axis sets up each
+    /// triangle separately: much slower than a view for meshes of small triangles.
     [[nodiscard]] VOXTACT_API Result<BatchAnswer> ask(const Count& question, const Batch& batch);
     [[nodiscard]] VOXTACT_API Result<DistanceAnswer> ask(const Distance& question, const Batch& batch);
     [[nodiscard]] VOXTACT_API Result<AreaAnswer> ask(const Area& question, const Batch& batch);
-    /// Refuses a mesh with holes, too, and limits of bands that do not ascend, or are more than kMaxBandLimits.
+    /// Also refuses a mesh with holes, band limits that do not ascend, and more than kMaxBandLimits of them.
     [[nodiscard]] VOXTACT_API Result<OverlapAnswer> ask(const Overlap& question, const Batch& batch);
-    /// Refuses what poseBetween() refuses, too, another number of shapes than of items or of their poses, and shapes
-    /// that Mesh::update() would refuse.
+    /// Also refuses what poseBetween() refuses, a number of shapes other than that of the items or their poses, and
+    /// shapes that Mesh::update() would refuse.
     [[nodiscard]] VOXTACT_API Result<MotionAnswer> ask(const Motion& question, const Batch& batch);
-    /// Refuses a target that is not finite, an axis of no length, and a plan all of whose directions see no surface.
+    /// Refuses a target that is not finite, an axis of length 0, and a plan without an entry surface in any direction.
     [[nodiscard]] VOXTACT_API Result<PlanAnswer> ask(const Plan& question);
 
-    /// How many threads it runs on.
+    /// Returns the number of threads.
     [[nodiscard]] VOXTACT_API std::uint32_t threads() const noexcept;
 
   private:

@@ -9,69 +9,69 @@
 #include <optional>
 #include <vector>
 
-/// How near: plain types, the same for whatever measures.
+/// Distance: plain types, the same for every engine.
 ///
-/// The clearance of a pair is the least distance in world mm between the mesh's surface (its triangles; a closed mesh
-/// is not filled) and the opaque part of the volume: the points of its closed box, out to the outermost voxels' faces,
-/// where the trilinear interpolant's opacity reaches the threshold. It is what the projection `certified` decides
-/// about: 0 is a touch.
+/// The distance of a pair is the smallest distance, in world mm, between the mesh's surface (its triangles; a closed
+/// mesh is not filled) and the opaque region of the volume. A point is opaque if it lies in the volume's closed box,
+/// out to the outer faces of the outermost voxels, and the opacity of the trilinear interpolant reaches the threshold
+/// there. It agrees with the projection `certified`: distance 0 is a touch.
 namespace voxtact {
 
-/// mm: how near to each other bounds are brought, where nothing else is asked for.
+/// Default tolerance, mm: maximum upper - lower.
 inline constexpr double kDefaultTolerance = 0.01;
 
-/// Two points as far apart as `hi` says, and how the clearance changes with the pose. The same point twice where the
-/// pair touches.
+/// Two points whose distance is `upper`, and the derivative of the distance with respect to the pose. If the pair
+/// touches, both points are equal.
 struct WitnessPoints {
-    std::uint32_t triangle = 0; ///< number in the mesh
+    std::uint32_t triangle = 0; ///< index of the triangle in the mesh
     Vec3 mesh{};                ///< on that triangle, world mm
-    /// Opaque, world mm. Where the opaque part is thinner than rounding can hit (a peak of the transfer function, and
-    /// the threshold at its top), a point close to it: an opaque point is then no farther from the triangle, and not
-    /// nearer than Bounds::lo.
+    /// Opaque, world mm. If the opaque region is thinner than rounding can resolve (a peak of the transfer function
+    /// that just reaches the threshold), a point close to it. An opaque point is then no farther from the triangle than
+    /// this point, and not nearer than Bounds::lower.
     Vec3 volume{};
-    /// Of the distance of these two: mm for each mm that the mesh is moved along the world's x, y and z, and mm for
-    /// each radian that it is turned, right-handed, about the parallels of these through the object's origin. As long
-    /// as they are the closest points. 0 where the pair touches.
+    /// Derivative of the distance: mm per mm of translation along the world's x, y and z. perRotation: mm per radian of
+    /// right-handed rotation about parallels of these axes through the object's origin. Valid while these points stay
+    /// the closest ones. 0 if the pair touches.
     Vec3 perTranslation{};
     Vec3 perRotation{}; ///< see perTranslation
 };
 
-/// The clearance of one pair.
+/// The distance of one pair.
 struct PairDistance {
-    std::uint32_t pair = 0;               ///< number of the pair in its batch
-    std::uint32_t item = 0;               ///< number of the BatchItem that the pair came from
-    std::uint32_t pose = 0;               ///< number of the pose within that item
+    std::uint32_t pair = 0;               ///< index of the pair in its batch
+    std::uint32_t item = 0;               ///< index of the BatchItem of the pair
+    std::uint32_t pose = 0;               ///< index of the pose in that item
     Bounds bounds;                        ///< mm
-    StopReason end{};                     ///< why they are no nearer to each other
-    std::optional<WitnessPoints> closest; ///< where `hi` is finite
+    StopReason end{};                     ///< why the search stopped
+    std::optional<WitnessPoints> closest; ///< if `upper` is finite
 };
 
-/// The clearance of one pair to what is opaque and has a label, or to what has it.
+/// The distance of one pair to the opaque part of a label, or to the whole label.
 struct LabelDistance {
-    std::uint32_t pair = 0; ///< number of the pair in its batch
-    std::uint32_t item = 0; ///< number of the BatchItem that the pair came from
-    std::uint32_t pose = 0; ///< number of the pose within that item
+    std::uint32_t pair = 0; ///< index of the pair in its batch
+    std::uint32_t item = 0; ///< index of the BatchItem of the pair
+    std::uint32_t pose = 0; ///< index of the pose in that item
     std::int32_t label = 0; ///< as in LabelData::values
-    Bounds bounds;          ///< mm; infinite where nothing of it is looked for
-    StopReason end{};       ///< why they are no nearer to each other
+    Bounds bounds;          ///< mm; infinite if the label has no such point
+    StopReason end{};       ///< why the search stopped
 };
 
-/// Labels that one batch is measured to, at most.
+/// Maximum number of labels of one question.
 inline constexpr std::uint32_t kMaxMeasuredLabels = 4096;
 
-/// What a batch gave.
+/// The answer for a batch.
 struct DistanceAnswer {
-    std::vector<PairDistance> pairs;   ///< in the order of the batch; empty where labels were asked for
-    std::vector<LabelDistance> labels; ///< by pair, then in the order that the labels were asked for
-    double wallMilliseconds = 0;       ///< of the whole call
+    std::vector<PairDistance> pairs;   ///< in the order of the batch; empty if labels were requested
+    std::vector<LabelDistance> labels; ///< by pair, then in the requested order
+    double wallMilliseconds = 0;       ///< duration of the whole call
 };
 
-/// What is known of a mesh that moves, at one of its poses.
+/// The state of a moving mesh at one pose.
 struct TrackedDistance {
-    Bounds bounds;         ///< of this pose, mm; wider apart than those of Distance
-    bool hit = false;      ///< it certainly touches
-    bool possible = false; ///< roundings decide whether it touches; with neither it certainly does not
-    bool searched = false; ///< the volume was looked into; false: it follows from what was known before
+    Bounds bounds;         ///< mm, at this pose; wider than those of Distance
+    bool hit = false;      ///< certainly touches
+    bool possible = false; ///< undecided: rounding decides; if neither is set, the mesh certainly does not touch
+    bool searched = false; ///< the volume was searched; false: earlier bounds were enough
 };
 
 } // namespace voxtact

@@ -13,8 +13,8 @@
 #include <utility>
 #include <variant>
 
-/// VOXTACT_API marks what a shared build exports. Everything else is hidden, and so is all of a static build, whose
-/// users have VOXTACT_STATIC from its packages: a shared library that it is linked into does not export it again.
+/// Marks the symbols that a shared build exports; all others are hidden. A static build exports none: its packages
+/// define VOXTACT_STATIC, so a shared library that links it does not export voxtact's symbols.
 #if defined(_WIN32) && defined(VOXTACT_EXPORTS)
 #define VOXTACT_API __declspec(dllexport)
 #elif defined(_WIN32) || defined(VOXTACT_STATIC)
@@ -25,7 +25,7 @@
 
 namespace voxtact {
 
-/// What kind of thing went wrong. `Error::text` says which argument, why, and what to do.
+/// Kind of an error. `Error::text` names the argument, the reason and the fix.
 enum class ErrorCode : std::uint32_t {
     InvalidArgument = 1, ///< an argument that no device could accept
     Unsupported,         ///< the device, or the features enabled on it, cannot do this
@@ -35,45 +35,45 @@ enum class ErrorCode : std::uint32_t {
     Vulkan,              ///< another VkResult, in `Error::vkResult`
     File,                ///< a file cannot be read or written
     Format,              ///< a file can be read, but what it holds cannot be used
-    NotReady,            ///< the result asked for does not exist yet, or no longer
+    NotReady,            ///< the result does not exist yet, or was replaced
     Internal,            ///< a bug in voxtact
     Cancelled,           ///< the caller ended the call early: cpu::Batch::cancel, a progress function
 };
 
-/// A refusal. One line of text, without a final full stop or newline.
+/// An error. One line of text, without a final full stop or newline.
 struct Error {
-    ErrorCode code = ErrorCode::Internal; ///< what kind of thing
-    std::int32_t vkResult = 0;            ///< the VkResult behind it; 0 (VK_SUCCESS) when there is none
-    std::string text;                     ///< which argument, why, and what to do
+    ErrorCode code = ErrorCode::Internal; ///< kind of error
+    std::int32_t vkResult = 0;            ///< the VkResult that caused it; 0 (VK_SUCCESS) if none did
+    std::string text;                     ///< the argument, the reason and the fix
 };
 
-/// A value or an Error. Nothing in voxtact throws across its public boundary; this is what comes back instead.
-/// Reading the value of a failed result, or the error of a good one, is undefined: ask `ok()` first.
+/// A value or an Error. voxtact throws nothing across its public boundary and returns this instead. Reading the value
+/// of a failed result, or the error of a good one, is undefined: call `ok()` first.
 template <class T> class [[nodiscard]] Result {
   public:
-    /// Success.
+    /// Creates a success.
     Result(T value) : content_(std::in_place_index<0>, std::move(value)) {}
-    /// Failure.
+    /// Creates a failure.
     Result(Error error) : content_(std::in_place_index<1>, std::move(error)) {}
 
-    /// Whether there is a value.
+    /// True if there is a value.
     [[nodiscard]] bool ok() const noexcept { return content_.index() == 0; }
-    /// The same as ok().
+    /// Returns ok().
     explicit operator bool() const noexcept { return ok(); }
 
-    /// The value of a result that is ok(); moved out of a temporary.
+    /// Returns the value of a result that is ok(); moved out of a temporary.
     /// @{
     [[nodiscard]] T& value() & noexcept { return *std::get_if<0>(&content_); }
     [[nodiscard]] const T& value() const& noexcept { return *std::get_if<0>(&content_); }
     [[nodiscard]] T&& value() && noexcept { return std::move(*std::get_if<0>(&content_)); }
     /// @}
-    /// The error of a result that is not ok().
+    /// Returns the error of a result that is not ok().
     /// @{
     [[nodiscard]] Error& error() & noexcept { return *std::get_if<1>(&content_); }
     [[nodiscard]] const Error& error() const& noexcept { return *std::get_if<1>(&content_); }
     /// @}
 
-    /// value(), shorter.
+    /// Returns value().
     /// @{
     T& operator*() & noexcept { return value(); }
     const T& operator*() const& noexcept { return value(); }
@@ -89,16 +89,16 @@ template <class T> class [[nodiscard]] Result {
 /// Success, or an Error.
 template <> class [[nodiscard]] Result<void> {
   public:
-    /// Success.
+    /// Creates a success.
     Result() = default;
-    /// Failure.
+    /// Creates a failure.
     Result(Error error) : error_(std::move(error)), ok_(false) {}
 
-    /// Whether it succeeded.
+    /// True on success.
     [[nodiscard]] bool ok() const noexcept { return ok_; }
-    /// The same as ok().
+    /// Returns ok().
     explicit operator bool() const noexcept { return ok_; }
-    /// The error of a result that is not ok().
+    /// Returns the error of a result that is not ok().
     [[nodiscard]] const Error& error() const noexcept { return error_; }
 
   private:

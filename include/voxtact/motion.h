@@ -8,84 +8,84 @@
 #include <span>
 #include <vector>
 
-/// On the way: plain types, the same for whatever checks motions.
+/// Continuous collision detection: plain types, the same for every engine.
 ///
 /// A segment joins two poses `from` and `to` of a mesh by a motion: at a parameter t from 0 to 1 the pose is M(t) *
-/// from, where M(t) is rigid, M(0) moves nothing and M(1) * from is `to`. The pose at t is poseBetween(); what is said
-/// of a segment is about all of them, those in between included.
+/// from, where M(t) is rigid, M(0) is the identity and M(1) * from is `to`. poseBetween() returns the pose at t. An
+/// answer covers all poses of the segment.
 namespace voxtact {
 
-/// Which motion. A turn of exactly 180 degrees goes counter-clockwise about that direction of its axis whose coordinate
-/// of the largest magnitude in the world is positive (of equal magnitudes the first). Where rounding makes it slightly
-/// less, the way is the shorter one.
+/// Kind of motion. A rotation of exactly 180 degrees is counter-clockwise about the direction of its axis whose
+/// coordinate of the largest magnitude in the world is positive (the first of equal ones). If rounding makes the angle
+/// slightly less, the rotation takes the shorter side.
 enum class Interpolation : std::uint32_t {
-    /// About and along one axis, both at constant speed, by no more than half a turn (Chasles, 1830).
+    /// Along and about one axis, both at constant speed, by at most half a turn (Chasles, 1830).
     Screw,
-    /// The middle of the mesh's box goes straight at constant speed, and the mesh turns about it, about one axis at
-    /// constant speed and by no more than half a turn (Shoemake, 1985).
+    /// The centre of the mesh's box moves straight at constant speed; the mesh rotates about it, about one axis at
+    /// constant speed, by at most half a turn (Shoemake, 1985).
     Slerp,
 };
-/// "screw" or "slerp"; static lifetime.
+/// Returns "screw" or "slerp", with static lifetime.
 [[nodiscard]] VOXTACT_API const char* toString(Interpolation interpolation) noexcept;
 
-/// mm: how near to each other the end of what is free and a touch are brought, where nothing else is asked for.
+/// Default resolution, mm: maximum motion from toi_lower to toi_upper.
 inline constexpr double kDefaultMotionResolution = 0.01;
-/// What two poses may differ by that is no rigid motion (scale, shear), in each element of the matrix from one to the
-/// other. It is spread evenly over the way.
+/// Maximum non-rigid difference (scale, shear) of two poses, in each element of the matrix from one to the other. It is
+/// spread evenly over the motion.
 inline constexpr double kMaxDeformation = 1e-3;
 
-/// The pose at a parameter: `from` at 0, `to` at 1, and rounding apart the motion above in between. `centre`: of the
-/// mesh's box, object space (MeshFacts::bounds); Slerp alone needs it. Refuses poses that are not affine or cannot be
-/// inverted, two whose motion is not rigid, and a parameter outside of 0 to 1.
+/// Returns the pose at a parameter: `from` at 0, `to` at 1; in between, the motion above up to rounding. `centre`: of
+/// the mesh's box in object space (MeshFacts::bounds); only Slerp needs it. Refuses poses that are not affine or not
+/// invertible, two poses whose motion is not rigid, and a parameter outside 0 to 1.
 [[nodiscard]] VOXTACT_API Result<Mat4> poseBetween(const Mat4& from, const Mat4& to, double parameter,
                                                    Interpolation interpolation = Interpolation::Screw,
                                                    const Vec3& centre = {});
 
-/// The shape at a parameter of a mesh that bends on the way, `from` at 0 and `to` at 1: each vertex goes straight, at
-/// constant speed. Refuses shapes of different sizes, and a parameter outside of 0 to 1.
+/// Returns the shape of a deforming mesh at a parameter, `from` at 0 and `to` at 1: each vertex moves straight, at
+/// constant speed. Refuses shapes of different sizes, and a parameter outside 0 to 1.
 [[nodiscard]] VOXTACT_API Result<std::vector<double>> shapeBetween(std::span<const double> from,
                                                                    std::span<const double> to, double parameter);
 
-/// A pose on the way that touches.
+/// A touching pose on the way.
 struct MotionTouch {
-    double at = 0;              ///< its parameter
+    double at = 0;              ///< parameter of the pose
     Mat4 world_from_object{};   ///< the pose
     Vec3 position{};            ///< world mm: on the surface, and opaque
-    std::uint32_t triangle = 0; ///< number in the mesh
+    std::uint32_t triangle = 0; ///< index of the triangle in the mesh
 };
 
-/// Why no more is said of a segment.
+/// Why a search of a segment ended.
 enum class MotionEnd : std::uint32_t {
-    Decided, ///< it is free, or it touches within the resolution of where it is free until
-    Grazes,  ///< somewhere it is so near that within the resolution neither is proven: the verdict *possible*
-    Budget,  ///< the steps that were allowed are used up
+    Decided, ///< the segment is free, or it touches within the resolution after its collision-free part
+    Grazes,  ///< somewhere the distance is within the resolution, and neither answer is proven: undecided
+    Budget,  ///< the iteration limit was reached
 };
-/// "decided", "grazes" or "budget"; static lifetime.
+/// Returns "decided", "grazes" or "budget", with static lifetime.
 [[nodiscard]] VOXTACT_API const char* toString(MotionEnd end) noexcept;
 
-/// What was found of one segment.
+/// The answer for one segment.
 struct SegmentMotion {
-    std::uint32_t segment = 0; ///< number of the segment in its batch
-    std::uint32_t item = 0;    ///< number of the BatchItem that it came from
-    std::uint32_t pose = 0;    ///< number within that item of the pose that it begins with
-    /// Certainly no pose from 0 to this parameter touches; 1 where the whole segment is free. At 0 it may be that the
-    /// first pose already does.
+    std::uint32_t segment = 0; ///< index of the segment in its batch
+    std::uint32_t item = 0;    ///< index of its BatchItem
+    std::uint32_t pose = 0;    ///< index, in that item, of the pose at which it begins
+    /// No pose from 0 to this parameter touches: proven; 1 if the whole segment is free. At 0, the first pose may
+    /// touch.
     double freeUntil = 0;
     std::optional<MotionTouch> touch; ///< certain; the earliest that was found
-    bool possible = false;            ///< not free, and no certain touch
-    MotionEnd end{};                  ///< why no more is said
+    bool possible = false;            ///< undecided: not free, and without a certain touch
+    MotionEnd end{};                  ///< why the search ended
 };
 
-/// What a batch gave.
+/// The answer for a batch.
 struct MotionAnswer {
     std::vector<SegmentMotion> segments; ///< in the order of the batch
-    double wallMilliseconds = 0;         ///< of the whole call
+    double wallMilliseconds = 0;         ///< duration of the whole call
 };
 
-/// By how much a pose may be off: the mesh is turned by at most so much about any axis through its object's origin, and
-/// then moved by at most so far in any direction.
+/// Uncertainty of a pose: the mesh is rotated by at most `angle` about any axis through its object's origin, then
+/// translated by at most `distance` in any direction.
 struct PoseTolerance {
-    double distance = 0; ///< mm, from 0 on
+    double distance = 0; ///< mm, at least 0
     double angle = 0;    ///< degrees, 0 to 180
 };
 

@@ -13,79 +13,77 @@
 #include <span>
 #include <vector>
 
-/// Questions about pairs of a mesh at a pose and an image, as plain data: an engine answers them (voxtact/cpu.h). What
-/// an engine answers depends on nothing but the pair and the question. Ranges and defaults of all numbers are in the
-/// table of facts; an engine refuses what is outside.
+/// Questions about pairs of a mesh at a pose and an image, as plain data. An engine answers them (voxtact/cpu.h).
+/// Answers depend only on the pair and the question. The table of facts has the ranges and defaults of all numbers; an
+/// engine refuses values outside the ranges.
 namespace voxtact {
 
 /// Does the surface touch the opaque region? Certified: *yes* and *no* are proven.
 struct Touch {
-    double margin = 0; ///< mm: is anything opaque at most that far from the surface?
-    /// At any pose that is off by at most this? Not with a margin; the answers have no witness points.
+    double margin = 0; ///< mm: is anything opaque within this distance of the surface?
+    /// Tests all poses within this uncertainty. Not with a margin; the answers have no witness points.
     std::optional<PoseTolerance> uncertainty{};
-    /// Finds a witness point of each yes, which takes longer. An enclosed region has none.
+    /// Finds a witness point of each yes; slower. An enclosed region has none.
     bool witness = false;
-    /// The inside of the mesh, which must be closed, touches too: a mesh that encloses an opaque region is a yes.
+    /// Includes the inside of the mesh, which must be closed: a mesh that encloses an opaque region is a yes.
     bool solid = false;
-    double resolution = kDefaultResolution; ///< voxels, 2^-12 to 1: pieces of triangles are not divided below it
-    std::uint64_t maxSteps = 1U << 20U;     ///< of the search of one pair; then it is undecided; at least 1
+    double resolution = kDefaultResolution; ///< voxels, 2^-12 to 1: shorter pieces of triangles are not divided
+    std::uint64_t maxSteps = 1U << 20U;     ///< iteration limit per pair, then undecided; at least 1
 };
 
 /// How many fragments pass, and where?
 struct Count {
-    Projection projection = Projection::View; ///< how triangles become fragments
-    Boundary boundary = Boundary::Auto;       ///< of the image; the host engine always tests the range for Auto
-    Outputs outputs{};                        ///< what is asked for in addition; not with stopAtFirst
-    bool stopAtFirst = false;                 ///< the count is then 0 or 1, a lower bound: whether any fragment passes
-    std::uint32_t samplesPerVoxel = kDefaultSamplesPerVoxel; ///< dominant-axis: along a voxel's side; 1 to 16
+    Projection projection = Projection::View;                ///< how triangles become fragments
+    Boundary boundary = Boundary::Auto;                      ///< of the image; for Auto the host engine tests the range
+    Outputs outputs{};                                       ///< additional outputs; not with stopAtFirst
+    bool stopAtFirst = false;                                ///< early exit: the count is 0 or 1, a lower bound
+    std::uint32_t samplesPerVoxel = kDefaultSamplesPerVoxel; ///< dominant-axis: per voxel side; 1 to 16
     double resolution = kDefaultResolution;                  ///< certified: as in Touch
-    std::uint32_t maxContacts = 1U << 20U;                   ///< a list of contacts is cut beyond that many
+    std::uint32_t maxContacts = 1U << 20U;                   ///< maximum number of contacts; a longer list is cut
 };
 
 /// How far is the surface from the opaque region?
 struct Distance {
-    double tolerance = kDefaultTolerance; ///< mm, from 1e-6 on: the search ends when the bounds are that near
-    double maximum =
-        std::numeric_limits<double>::infinity(); ///< mm, above 0: the search ends when it is certainly farther
-    /// To each of these labels, at most kMaxMeasuredLabels: then every item needs labels on the grid of its volume,
-    /// and the answer has labels instead of pairs. A label fills the closed boxes of its voxels, so that a face between
-    /// two labels belongs to both. Labels that a map does not have are infinitely far.
+    double tolerance = kDefaultTolerance; ///< mm, from 1e-6 on: stop when upper - lower is at most this
+    double maximum = std::numeric_limits<double>::infinity(); ///< mm, above 0: stop when lower reaches this distance
+    /// Labels to measure to, at most kMaxMeasuredLabels. Every item then needs labels on the grid of its volume, and
+    /// the answer has labels instead of pairs. A label fills the closed boxes of its voxels, so a face between two
+    /// labels belongs to both. The distance to a label that the map lacks is infinite.
     std::optional<std::vector<std::int32_t>> labels{};
-    bool labelsAtAnyOpacity = false; ///< to all of a label; false: to the part of it that is opaque
-    /// From the inside of the mesh, too, which must be closed: an enclosed opaque region is at distance 0. Not with
+    bool labelsAtAnyOpacity = false; ///< measures to the whole label; false: to its opaque part
+    /// Includes the inside of the mesh, which must be closed: the distance to an enclosed opaque region is 0. Not with
     /// labels.
     bool solid = false;
     double resolution = kDefaultResolution; ///< as in Touch
-    std::uint64_t maxSteps = 1U << 18U;     ///< a pair that takes more is left with the bounds it has; at least 1
+    std::uint64_t maxSteps = 1U << 18U;     ///< iteration limit per pair, then the current bounds; at least 1
 };
 
 /// How much of the surface is in the opaque region?
 struct Area {
-    double tolerance = kDefaultAreaTolerance; ///< mm^2, from 1e-9 on: the search ends when the bounds are that near
-    /// In each of these labels, at most kMaxMeasuredLabels: as in Distance. Of labels that a map does not have it is 0.
+    double tolerance = kDefaultAreaTolerance; ///< mm^2, from 1e-9 on: stop when upper - lower is at most this
+    /// Labels to measure in, at most kMaxMeasuredLabels, as in Distance. The area of a label that the map lacks is 0.
     std::optional<std::vector<std::int32_t>> labels{};
-    /// And how much each triangle has of it; not with labels. The tolerance is of the pair's area. All of a batch is in
-    /// memory until it is done, some 100 bytes for each triangle that touches.
+    /// Measures the area of each triangle, too; not with labels. The tolerance applies to the area of the pair. The
+    /// batch stays in memory until it is done: about 100 bytes per touching triangle.
     bool triangles = false;
     double resolution = kDefaultResolution; ///< as in Touch
-    /// A pair, or a label of one, that takes more is left with the bounds it has; at least 1. Each step takes half a
-    /// kilobyte of a thread's memory at most, while its pair is measured.
+    /// Iteration limit per pair or label; then returns the current bounds; at least 1. Each iteration takes at most
+    /// half a kilobyte of a thread's memory while its pair is measured.
     std::uint64_t maxSteps = 1U << 18U;
 };
 
-/// The shapes of a mesh that bends, one for each pose of an item: its vertices, as cpu::Mesh::update() takes them.
+/// Shapes of a deforming mesh, one for each pose of an item: its vertices, as cpu::Mesh::update() takes them.
 using ShapesOfPoses = std::span<const std::span<const double>>;
 
-/// What happens between consecutive poses of each item? One answer fewer than an item has poses.
+/// What happens between consecutive poses of each item? An item has one answer fewer than poses.
 struct Motion {
-    Interpolation interpolation = Interpolation::Screw; ///< of the poses in between
-    double resolution = kDefaultMotionResolution; ///< mm, from 1e-6 on: the mesh moves at most that far from the end of
-                                                  ///< what is free to a touch
-    /// Of meshes that bend on the way, for each item: while the mesh moves as poseBetween() says, with the centre of
-    /// the item's own mesh, its vertices go as shapeBetween() says. Empty: nothing bends. Read during the call only.
+    Interpolation interpolation = Interpolation::Screw; ///< kind of motion between the poses
+    double resolution = kDefaultMotionResolution; ///< mm, from 1e-6 on: maximum motion from toi_lower to toi_upper
+    /// Shapes of deforming meshes, for each item: while the mesh moves as in poseBetween(), with the centre of the
+    /// item's own mesh, its vertices move as in shapeBetween(). Empty: rigid. Read during the call only.
     std::span<const ShapesOfPoses> shapes{};
     double touchResolution = kDefaultResolution; ///< as Touch::resolution
-    std::uint64_t maxSteps = 1U << 20U;          ///< a segment that takes more is left with what is known; at least 1
+    std::uint64_t maxSteps = 1U << 20U;          ///< iteration limit per segment, then the current bounds; at least 1
 };
 
 } // namespace voxtact

@@ -8,24 +8,24 @@
 #include "voxtact/voxtact_files.h"
 
 /// @file
-/// voxtact in C: data, the host engine, files and builtins. Nothing here needs Vulkan; what runs on a Vulkan device is
-/// in voxtact_vulkan.h. The words are those of the C++ headers, whose comments say more: vxt_host_volume is
+/// C interface: data, the host engine, files and builtins. It needs no Vulkan; voxtact_vulkan.h has the functions for
+/// Vulkan devices. The terms are those of the C++ headers, whose comments have more detail: vxt_host_volume is
 /// voxtact::cpu::Volume, and vxt_volume_view is voxtact::VolumeView.
 ///
-/// Structs that begin with `struct_size` can grow. Fill one with zeros, set `struct_size` to its `sizeof`, and set what
-/// you need: `vxt_distance question = {.struct_size = sizeof question, .tolerance = 0.1};`. A library that
-/// knows more members takes the defaults of those that are missing; one that knows fewer refuses members that are not
-/// zero. In an array of them all have the same `struct_size`. A struct without `struct_size` never changes.
+/// Structs that begin with `struct_size` can grow. Fill one with zeros, set `struct_size` to its `sizeof`, and set the
+/// members that you need: `vxt_distance question = {.struct_size = sizeof question, .tolerance = 0.1};`. A newer
+/// library uses the defaults of missing members; an older library refuses unknown members that are not zero. All
+/// elements of an array have the same `struct_size`. A struct without `struct_size` never changes.
 ///
-/// Functions that can fail return a vxt_result, and vxt_last_error() has the reason. One that makes an object sets the
-/// pointer to null where it fails. Every `..._destroy()` accepts null. Nothing is thrown, printed or aborted. Pointers
-/// in arguments are read during the call only, unless their comment says otherwise. A truth value is 0 or not 0. Text
-/// is UTF-8 and ends with a 0.
+/// Functions that can fail return a vxt_result; vxt_last_error() returns the reason. On failure a creating function
+/// sets its pointer to null. Every `..._destroy()` accepts null. Nothing throws, prints or aborts. Pointers in
+/// arguments are read during the call only, unless their comment says otherwise. A truth value is 0 or not 0. Text is
+/// UTF-8 and ends with a 0.
 ///
-/// Matrices are 16 doubles, column by column: the element in row r and column c is at [4 * c + r]. `b_from_a` takes
-/// points of space a to space b.
+/// Matrices are 16 doubles, column-major: the element in row r and column c is at [4 * c + r]. `b_from_a` maps points
+/// of space a to space b.
 ///
-/// Thread-safety: functions that take an object as const are safe from any thread; all others need the caller's lock
+/// Thread-safety: functions that take an object as const are safe from any thread. All others need the caller's lock
 /// for the objects that they take as not const.
 
 #endif

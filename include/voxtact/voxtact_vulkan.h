@@ -7,9 +7,9 @@
 #include "voxtact/voxtact_vulkan_scene.h"
 
 /// @file
-/// voxtact on a Vulkan device, in C. What holds for voxtact.h holds here. What each `..._cmd_...()` expects and leaves,
-/// and which bound state it loses, stands above its namesake in context.h, scene.h and detector.h. Vulkan handles are
-/// the caller's: nothing here frees, writes or transitions them. Objects keep what they need of the context, so the
-/// order in which they end does not matter; all of them end before the device. The parts have headers of their own.
+/// voxtact on a Vulkan device, in C. The conventions of voxtact.h apply. context.h, scene.h and detector.h document the
+/// required and resulting states of each `..._cmd_...()` function, and the bound state it loses. Vulkan handles are the
+/// caller's: no function frees, writes or transitions them. Objects keep the parts of the context that they need, so
+/// they can be destroyed in any order, before the device. The parts have headers of their own.
 
 #endif

@@ -11,7 +11,7 @@ namespace voxtact::c {
     return call([&] { refuse(ErrorCode::Unsupported, why); });
 }
 
-/// Of one that makes an object.
+/// For a function that creates an object.
 template <class Handle> [[nodiscard]] vxt_result absent(const char* why, Handle** out) noexcept {
     if (out != nullptr) {
         *out = nullptr;

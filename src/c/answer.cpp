@@ -19,7 +19,7 @@ template <class Row> AnswerTable tableOf(std::span<const ColumnFacts> columns, s
     return {columns, kept, reinterpret_cast<const std::byte*>(kept->data()), kept->size(), sizeof(Row)};
 }
 
-/// A table of what `toRow` makes of each.
+/// A table of the results of `toRow`.
 template <class From, class ToRow>
 AnswerTable tableOf(std::span<const ColumnFacts> columns, const std::vector<From>& from, const ToRow& toRow) {
     std::vector<decltype(toRow(from.front()))> rows;
@@ -61,7 +61,7 @@ ContactRow toContact(const Contact& contact) noexcept {
     return out;
 }
 
-/// Nothing is the box that overlaps nothing.
+/// No box becomes the box that overlaps nothing.
 BoundsRow toBounds(const std::optional<Box>& bounds) noexcept {
     BoundsRow out{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
     if (bounds) {

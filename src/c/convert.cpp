@@ -11,7 +11,7 @@ static_assert(VXT_SCALAR_INT16 == static_cast<int>(ScalarType::Int16));
 static_assert(VXT_SCALAR_UINT16 == static_cast<int>(ScalarType::UInt16));
 static_assert(VXT_SCALAR_FLOAT32 == static_cast<int>(ScalarType::Float32));
 
-// No function has a vxt_output in its type, so that these numbers are not in the record of the binary interface.
+// No function has vxt_output in its type, so the record of the binary interface does not contain these numbers.
 static_assert(VXT_OUTPUT_TRIANGLES == 1 && VXT_OUTPUT_CONTACTS == 2 && VXT_OUTPUT_BOUNDS == 4 &&
               VXT_OUTPUT_LABELS == 8);
 

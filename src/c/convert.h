@@ -7,8 +7,7 @@
 #include <cmath>
 #include <limits>
 
-/// Data of the C interface as the C++ one takes it, and back. Arrays are looked at where they are, never copied, but
-/// for control points.
+/// Converts data between the C and the C++ interface. Arrays are used in place, never copied, except control points.
 namespace voxtact::c {
 
 /// A number of an enumeration; the C++ interface refuses those that are none.
@@ -46,11 +45,11 @@ void writeVec3(double* out, const Vec3& vector, const char* what);
     return given == 0 ? zero : given;
 }
 [[nodiscard]] Outputs toOutputs(std::uint32_t outputs, double maxDepth);
-/// Where they are; 16 doubles per pose.
+/// Returns the matrices in place; 16 doubles per pose.
 [[nodiscard]] std::span<const Mat4> toPoses(const double* poses, std::size_t count, const char* what);
 [[nodiscard]] std::span<const std::byte> toBytes(const void* bytes, std::size_t count, const char* what);
 
-/// A TransferFunctionDesc and the points that it looks at.
+/// A TransferFunctionDesc with the points that it references.
 class TransferFunctionOf {
   public:
     explicit TransferFunctionOf(const vxt_transfer_function_desc* given);
@@ -61,7 +60,7 @@ class TransferFunctionOf {
     vxt_transfer_function_desc given_;
 };
 
-/// How many elements `count` of `each` are. Refuses an array that is longer than its elements can be counted in bytes.
+/// Number of elements: `count` times `each`. Refuses an array whose size in bytes overflows.
 std::size_t times(std::size_t count, std::size_t each, const char* what);
 
 /// An array of the caller's. Refuses one that no memory holds.

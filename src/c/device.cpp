@@ -26,7 +26,7 @@ struct DeviceFacts {
     std::uint32_t apiVersion = 0;
 };
 
-/// In the order in which they are made.
+/// In the order of creation.
 struct VulkanObjects {
     PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;
     VkInstance instance = VK_NULL_HANDLE;
@@ -80,7 +80,7 @@ void expect(VkResult result, const char* what) {
     throw Refusal({code, result, std::string(what) + " failed: VkResult " + std::to_string(result)});
 }
 
-/// What a two-call Vulkan function lists.
+/// Result of a two-call Vulkan function.
 template <class T, class Function> std::vector<T> listed(const char* what, const Function& function) {
     std::vector<T> all;
     VkResult result = VK_INCOMPLETE;
@@ -172,7 +172,7 @@ VulkanObjects::~VulkanObjects() {
 }
 
 void VulkanObjects::makeInstance() {
-    // It stays loaded: drivers do not bear being unloaded and loaded again.
+    // It stays loaded: drivers fail if unloaded and loaded again.
     void* const loader = dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
     if (loader == nullptr) {
         refuse(ErrorCode::Unsupported, "the Vulkan loader libvulkan.so.1 cannot be loaded; install Debian's package "
@@ -201,7 +201,7 @@ std::vector<VkPhysicalDevice> VulkanObjects::devices() const {
     std::vector<VkPhysicalDevice> all = listed<VkPhysicalDevice>(
         "listing the Vulkan devices", [&](std::uint32_t* count, VkPhysicalDevice* to) -> VkResult {
             const VkResult result = enumerate(instance, count, to);
-            // What the loader says where there is no driver.
+            // The loader's result without a driver.
             return result == VK_ERROR_INITIALIZATION_FAILED ? VK_SUCCESS : result;
         });
     if (all.empty()) {
@@ -447,7 +447,7 @@ vxt_result vxt_device_begin(vxt_device* device, VkCommandBuffer* commands) {
         VkCommandBufferBeginInfo begin{};
         begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
         begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-        // What was begun and then refused is still being recorded.
+        // A recording that began and then failed is still open.
         expect(own.VOXTACT_LOAD(vkResetCommandBuffer)(own.commands, 0), "resetting a command buffer");
         expect(own.VOXTACT_LOAD(vkBeginCommandBuffer)(own.commands, &begin), "beginning a command buffer");
         to = own.commands;
@@ -479,7 +479,7 @@ vxt_result vxt_device_submit(vxt_device* device) {
 
 void vxt_device_destroy(vxt_device* device) {
     if (device != nullptr && device->isForeign()) {
-        // In a child of the process that opened it: ending it would wait for threads that are not there.
+        // In a child of the process that opened it: destruction would wait for missing threads.
         [[maybe_unused]] const VulkanObjects* objects = device->objects.release();
         [[maybe_unused]] const vxt_context* context = device->context.release();
     }

@@ -23,7 +23,7 @@ constexpr const char* kNoMemory = "no host memory";
 
 // A thread's own, as errno is; the context has the errors of all threads.
 thread_local LastError threadError;
-/// What vxt_last_error() returned last in this thread.
+/// Last result of vxt_last_error() in this thread.
 thread_local LastError told;
 
 vxt_result keep(ContextErrors* errors, const Error& error) noexcept {

@@ -11,11 +11,11 @@
 #include <string>
 #include <utility>
 
-/// How a call of the C interface ends. Inside a call a refusal travels as an exception, because std::bad_alloc does so
-/// anyway: call() is the one place where both end, and nothing passes it.
+/// Error handling of the C interface. Inside a call errors are exceptions, because std::bad_alloc is one anyway; call()
+/// catches all of them.
 namespace voxtact::c {
 
-/// What vxt_last_error() and vxt_last_vk_result() tell.
+/// Results of vxt_last_error() and vxt_last_vk_result().
 struct LastError {
     std::string text;
     std::int32_t vkResult = 0;
@@ -58,7 +58,7 @@ inline void take(const Result<void>& result) {
     }
 }
 
-/// What a pointer of the caller's points to. `what` is the argument's name.
+/// Returns the object of a caller's pointer; refuses null. `what` is the argument's name.
 template <class T> T& need(T* pointer, const char* what) {
     if (pointer == nullptr) {
         refuse(ErrorCode::InvalidArgument, std::string(what) + " is null");
@@ -85,7 +85,7 @@ template <std::invocable Body> vxt_result call(Body&& body) noexcept {
     return call(nullptr, std::forward<Body>(body));
 }
 
-/// The same for a call on an object of a context; the object may be null.
+/// Like call(), for an object of a context; the object may be null.
 template <class Handle, std::invocable Body>
 requires requires(Handle& handle) {
     handle.errors.get();
@@ -94,7 +94,7 @@ vxt_result call(Handle* handle, Body&& body) noexcept {
     return call(handle == nullptr ? nullptr : handle->errors.get(), std::forward<Body>(body));
 }
 
-/// Makes a new object of what `body` returns; null where it fails.
+/// Creates an object from the result of `body`; null on failure.
 template <class Handle, std::invocable Body> vxt_result create(Handle** out, Body&& body) noexcept {
     return call([&] {
         Handle*& place = need(out, "the place for the new object");
@@ -103,7 +103,7 @@ template <class Handle, std::invocable Body> vxt_result create(Handle** out, Bod
     });
 }
 
-/// The same for an object that is made with a context, or with what belongs to one.
+/// Like create(), for an object that belongs to a context.
 template <class Handle, class Owner, class Body>
 vxt_result create(Owner* owner, const char* what, Handle** out, Body&& body) noexcept {
     return call(owner, [&] {

@@ -7,8 +7,8 @@
 #include <atomic>
 #include <vector>
 
-// What stands behind the opaque types of voxtact.h. Every handle has its object as `object`; those that belong to a
-// context share its errors as `errors`.
+// Definitions of the opaque types of voxtact.h. Every handle has its object as `object`; those that belong to a context
+// share its errors as `errors`.
 
 struct vxt_labels {
     voxtact::LabelData object;

@@ -5,7 +5,7 @@
 #include "voxtact/render.h"
 #include "voxtact/voxtact_render.h"
 
-// What stands behind the opaque types of voxtact_render.h, as in handles.h.
+// Definitions of the opaque types of voxtact_render.h, as in handles.h.
 
 namespace voxtact::c {
 

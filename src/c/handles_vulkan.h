@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-// What stands behind the opaque types of voxtact_vulkan.h, as in handles.h.
+// Definitions of the opaque types of voxtact_vulkan.h, as in handles.h.
 
 namespace voxtact::c {
 

@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kNoPictures =
     "this library was built without voxtact::render and makes no pictures; build it with VOXTACT_BUILD_RENDER";
 
-/// No array, and 0.
+/// Returns no array, and count 0.
 template <class T> const T* none(std::size_t* count) noexcept {
     if (count != nullptr) {
         *count = 0;

@@ -54,7 +54,7 @@ Lighting toLighting(const vxt_lighting* given) {
     return out;
 }
 
-/// A scene of the caller's as the renderer takes it, and what it looks at.
+/// A caller's scene in the renderer's form, with the data that it references.
 class SceneOf {
   public:
     explicit SceneOf(const vxt_picture_scene* given) : given_(readStruct(given, vxt_picture_scene_init(), "scene")) {

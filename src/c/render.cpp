@@ -10,7 +10,7 @@ namespace {
 
 static_assert(RenderTransferFunctionDesc{}.opacityUnit == 1 && RenderTransferFunctionDesc{}.step == 0.5);
 
-/// A RenderTransferFunctionDesc and the points that it looks at.
+/// A RenderTransferFunctionDesc with the points that it references.
 class RenderFunctionOf {
   public:
     explicit RenderFunctionOf(const vxt_render_function_desc* given)

@@ -16,7 +16,7 @@ struct vxt_report {
 
 namespace {
 
-/// A row of a method, whose text is put in later: put() has all of them then.
+/// A row of a method; put() sets its text once all texts exist.
 vxt_method_report toRow(CountingMethod method, bool available, bool trusted) {
     vxt_method_report row{};
     row.method = number<vxt_method>(method);

@@ -12,7 +12,7 @@
 /// Structs of the caller's that begin with their size, which a newer or an older header gave them.
 namespace voxtact::c {
 
-/// No struct will ever be larger; what is was not initialised.
+/// Larger than any struct will be; a larger size is uninitialised memory.
 inline constexpr std::size_t kLargestStruct = 4096;
 
 /// Refuses a size that no header has given to a struct of that kind.
@@ -45,7 +45,7 @@ template <class T> T readStruct(const void* given, const T& defaults, const char
     return copy;
 }
 
-/// The same, where null stands for the defaults.
+/// Like readStruct(), with null for the defaults.
 template <class T> T readOptions(const T* given, const T& defaults, const char* what) {
     return given == nullptr ? defaults : readStruct(given, defaults, what);
 }
@@ -73,7 +73,7 @@ template <class T> std::vector<T> readStructs(const T* given, std::size_t count,
     return copies;
 }
 
-/// Fills in a struct of the caller's, as much of it as its header knows; what only the caller knows becomes zero.
+/// Fills in a caller's struct up to its size; members unknown to the library become zero.
 template <class T> void writeStruct(T* out, T value, const char* what) {
     const std::size_t size = need(out, what).struct_size;
     checkStructSize(size, alignof(T), what);

@@ -20,12 +20,11 @@ std::vector<Command> addCommands(CLI::App& program) {
     return commands;
 }
 
-constexpr ProgramDesc kProgram{
-    "Certified collision and distance queries between triangle meshes and CT/MR images.",
-    "COMMAND --help lists its options, COMMAND --help-all the rare ones, too.\n\n"
-    "Example:\n  voxtact touch --volume builtin:head:128 --mesh builtin:scalpel\n\n"
-    "Exit status: 0 done, 1 failed at run time, 2 unusable arguments, 3 a verification failed.",
-    addCommands};
+constexpr ProgramDesc kProgram{"Certified collision and distance queries: triangle meshes against CT/MR images.",
+                               "COMMAND --help lists its options, COMMAND --help-all the rare ones, too.\n\n"
+                               "Example:\n  voxtact touch --volume builtin:head:128 --mesh builtin:scalpel\n\n"
+                               "Exit status: 0 done, 1 run-time failure, 2 unusable arguments, 3 failed check.",
+                               addCommands};
 
 } // namespace
 

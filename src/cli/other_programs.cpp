@@ -23,7 +23,7 @@ struct OtherProgram {
 
 constexpr std::array<OtherProgram, 3> kOtherPrograms{{
     {"view", "open the window (voxtact-view)", "voxtact-view", nullptr, "./run view"},
-    {"compare", "verify and time the counting methods (voxtact-bench)", "voxtact-bench", "compare", "./run test"},
+    {"compare", "verify and time counting methods (voxtact-bench)", "voxtact-bench", "compare", "./run test"},
     {"bench", "verify and time the engines (voxtact-bench)", "voxtact-bench", "bench", "./run test"},
 }};
 

@@ -16,7 +16,7 @@ namespace voxtact::app {
 
 namespace {
 
-/// The subcommand that the arguments lead to, as far as they were read.
+/// Returns the subcommand that the arguments reached.
 const CLI::App* deepest(const CLI::App& program) {
     const CLI::App* app = &program;
     while (!app->get_subcommands().empty()) {
@@ -42,7 +42,7 @@ std::vector<std::string> commandsOf(const CLI::App& app) {
     return names;
 }
 
-/// "--option", as far as they have names of that kind.
+/// Returns the long names of the options: "--option".
 std::vector<std::string> optionsOf(const CLI::App& app) {
     std::vector<std::string> names;
     for (const CLI::Option* option : app.get_options()) {
@@ -80,7 +80,7 @@ std::string parseErrorText(const CLI::App& program, const CLI::ParseError& error
 }
 
 int finish(const std::string& command, const Outcome& outcome) {
-    // The reader closed the pipe and wants no more of it; a file that is not there is still an error.
+    // A closed pipe is no error; a missing file still is.
     if (outcome.status == kExitFailed && standardOutputIsClosed() && !writesFiles()) {
         return kExitDone;
     }
@@ -139,8 +139,8 @@ int run(const ProgramDesc& desc, std::vector<std::string> arguments) {
 
 std::terminate_handler standardHandler = nullptr;
 
-/// Where no exception may pass and there is no memory: destructors of JSON make room for what they take apart. No other
-/// destructor may run then, so the process ends at once.
+/// Handles exceptions that must not pass, without memory: destructors of JSON allocate while they destroy. No other
+/// destructor may run then, so the process ends immediately.
 [[noreturn]] void onTerminate() noexcept {
     try {
         if (std::current_exception() != nullptr) {

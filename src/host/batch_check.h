@@ -10,10 +10,10 @@ namespace voxtact::cpu {
 /// number of pairs.
 [[nodiscard]] Result<std::uint32_t> checkBatch(const Count& desc, const Batch& batch);
 
-/// The same of a batch that is asked for what is certain of it, without a camera.
+/// Like checkBatch(), for certified questions, which need no camera.
 [[nodiscard]] Result<void> checkCertifiedBatch(const Batch& batch);
 
-/// The same of an item alone.
+/// Like checkBatch(), for a single item.
 [[nodiscard]] Result<void> checkCertifiedItem(const BatchItem& item, double threshold);
 
 /// Refuses more than kMaxThreads.

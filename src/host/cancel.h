@@ -28,14 +28,14 @@ class Cancellation {
     mutable std::atomic<bool> seen_ = false;
 };
 
-/// That of the call at hand; null: it has none.
+/// Cancel flag of the current call; null: none.
 using CancelFlag = const Cancellation*;
 
 [[nodiscard]] inline bool isCancelled(CancelFlag cancel) noexcept {
     return cancel != nullptr && cancel->seen();
 }
 
-/// What a cancelled call returns instead of what it has so far, which says nothing of any pair.
+/// Refuses a cancelled call, which returns no partial results.
 [[nodiscard]] inline Result<void> checkNotCancelled(const Cancellation& cancel) {
     if (cancel.seen()) {
         return Error{ErrorCode::Cancelled, 0, "the call was cancelled (Batch::cancel)"};

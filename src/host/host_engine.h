@@ -15,7 +15,7 @@ namespace voxtact::cpu {
 
 struct OverlapMeterImpl;
 
-/// What an engine keeps from call to call. Each question is answered in the room that its name says.
+/// State that an engine keeps between calls. The folder named after a question answers it.
 struct HostEngineImpl {
     explicit HostEngineImpl(std::uint32_t threads) : workers(threads) {}
 
@@ -29,7 +29,7 @@ struct HostEngineImpl {
     std::map<std::uint64_t, std::unique_ptr<MeshImpl>> divided;
 };
 
-/// Of `Touch` with an uncertainty. Expects a batch that checkCertifiedBatch() accepts.
+/// Answers `Touch` with an uncertainty. Expects a batch that checkCertifiedBatch() accepts.
 [[nodiscard]] Result<TouchAnswer> touchAround(HostEngineImpl& impl, const Touch& question, const Batch& batch);
 
 /// Refuses a number of steps that no search does with.

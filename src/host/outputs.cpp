@@ -31,7 +31,7 @@ struct HostField {
     [[nodiscard]] float opacity(const OutputPair&, const ContactVector& inside) const {
         return opacityOf(stored(inside));
     }
-    /// What a contact says that a look at its place finds.
+    /// Data of a contact that sampling its position provides.
     [[nodiscard]] ContactSample sample(const ContactVector& at) const {
         const float value = stored(contactClamp(at));
         return {value, opacityOf(value)};
@@ -158,14 +158,14 @@ template <class T> void append(std::vector<T>& to, const std::vector<T>& more) {
 
 } // namespace
 
-/// What one thread has found.
+/// Results of one thread.
 struct OutputRun::Found {
     std::vector<TouchedTriangle> triangles;
     std::vector<Contact> contacts;
     std::vector<PairBox> boxes;     ///< of parts of pairs
     std::vector<LabelCount> labels; ///< of parts of pairs
 
-    /// Of the sink that there is.
+    /// State of the current sink.
     bool any = false;
     Box box = kNoBox;
     std::vector<std::uint64_t> histogram;

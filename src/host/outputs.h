@@ -37,7 +37,7 @@ class OutputRun {
 
   private:
     struct Found;
-    /// What is the same for all pairs of an item.
+    /// Data that all pairs of an item share.
     struct ItemOutputs {
         shader::OutputPair pair;
         const LabelData* labels;
@@ -58,8 +58,8 @@ class OutputRun::Sink {
   public:
     Sink(OutputRun& run, std::size_t item, std::uint32_t pair, std::uint32_t thread);
 
-    /// Texture space; in the domain, unless coordinates are clamped. `known` is what a contact is to say of its place;
-    /// without it, what a look at the place finds.
+    /// Texture space; in the domain, unless coordinates are clamped. `known`: the contact's data at its position; null:
+    /// samples them.
     void add(std::uint32_t triangle, const shader::ContactVector& at,
              const std::optional<shader::ContactSample>& known = {});
     /// Once all were added.

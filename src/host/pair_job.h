@@ -11,7 +11,7 @@
 
 namespace voxtact::cpu {
 
-/// What is the same for all pairs of a batch item.
+/// Data that all pairs of a batch item share.
 struct ViewFacts {
     ViewFacts(const View& view, bool withRangeTest);
 
@@ -33,7 +33,7 @@ struct Form {
     float margin = 0;
 };
 
-/// What cluster culling needs of a pair.
+/// Inputs of cluster culling for a pair.
 struct CullForms {
     CullForms(const MeshImpl& mesh, const shader::PairTransform& transform);
 

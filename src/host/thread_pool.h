@@ -16,9 +16,9 @@ namespace voxtact::cpu {
 /// When a call's other threads are woken.
 enum class WakeOthers : std::uint8_t {
     AtOnce,
-    /// Where the last two calls, of no fewer pieces, were done in less time than it takes to wake anybody: once this
-    /// one has taken as long, and a piece is done. Else at once. A call of few pieces that take long, after two brief
-    /// ones, may so take twice as long.
+    /// Wakes threads late if the last two calls, with at least as many pieces, took less time than waking a thread:
+    /// after this time, and the first piece. Otherwise at once. A call of a few long pieces after two short calls may
+    /// take twice as long.
     Predicted
 };
 
@@ -36,9 +36,8 @@ class ThreadPool {
     ~ThreadPool();
 
     [[nodiscard]] std::uint32_t threads() const noexcept { return static_cast<std::uint32_t>(workers_.size()) + 1; }
-    /// Calls `step`, which has so many pieces to do, until none is left and all threads are at rest. A thread that is
-    /// not awake before the last piece is begun is not waited for. What one of them throws, the first of several, is
-    /// thrown then: no memory, say.
+    /// Calls `step` for all pieces; returns when all threads have stopped. Does not wait for a thread that wakes after
+    /// the last piece has begun. Rethrows the first exception of a thread, such as std::bad_alloc.
     void run(std::uint64_t pieces, const Step& step, WakeOthers when = WakeOthers::AtOnce);
 
   private:
@@ -59,7 +58,7 @@ class ThreadPool {
     const Step* step_ = nullptr;
     std::uint64_t round_ = 0;
     std::uint32_t wanted_ = 0;  ///< threads that may join this round
-    std::uint32_t running_ = 0; ///< of those that have joined, the ones that are not at rest
+    std::uint32_t running_ = 0; ///< joined threads that have not stopped
     std::exception_ptr thrown_; ///< in this round
     Clock::duration spent_{};   ///< by all threads
     /// Pieces of the last call and of the one before it, 0 where all of its pieces together took as long as waking.

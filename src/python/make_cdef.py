@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Makes voxtact/_cdef.py, what cffi knows of the C interface, from its headers.
+"""Makes voxtact/_cdef.py, the C declarations for cffi, from the headers.
 
 usage: make_cdef.py OUTPUT HEADER...
 """
@@ -8,7 +8,7 @@ import sys
 
 import cffi
 
-# What the headers take from Vulkan's. Handles are pointers on every machine of 64 bits.
+# Types that the headers take from Vulkan. Handles are pointers on every 64-bit machine.
 HANDLES = ("VkInstance VkPhysicalDevice VkDevice VkQueue VkCommandBuffer VkPipelineCache VkImageView VkBuffer "
            "VkQueryPool").split()
 STRUCTS = "VkPhysicalDeviceFeatures2 VkAllocationCallbacks".split()
@@ -24,7 +24,7 @@ VULKAN = "\n".join([*(f"typedef struct {name}_T* {name};" for name in HANDLES),
 
 
 def declarations(header):
-    """Types and functions, without comments, preprocessor and inline functions."""
+    """Returns types and functions, without comments, preprocessor directives and inline functions."""
     text = re.sub(r"//[^\n]*|/\*.*?\*/", "", header, flags=re.DOTALL)
     text = re.sub(r"^#ifdef __cplusplus\n.*?^#endif\n", "", text, flags=re.MULTILINE | re.DOTALL)
     text = re.sub(r"^#(?:.*\\\n)*.*\n", "", text, flags=re.MULTILINE)

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kPixelBytes = 4;
 
-/// What a picture of one size needs.
+/// Resources of a picture of one size.
 struct Frame {
     RenderTargets targets;
     Image image;
@@ -112,10 +112,10 @@ struct BlockingRenderer::State {
     /// A band of rows: from the first on, before the last.
     Result<void> record(VkCommandBuffer commandBuffer, const Scene& scene, std::uint32_t first, std::uint32_t last,
                         bool anew);
-    /// A submission. A band from the first row on, or `again`, discards what was rendered before it.
+    /// A submission. A band from the first row on, or `again`, discards earlier results.
     Result<void> renderBand(const Scene& scene, VkExtent2D extent, std::uint32_t first, std::uint32_t last,
                             bool anew = false);
-    /// How many seconds a row in the middle takes; of no use in the picture.
+    /// Seconds per row in the middle; not used for the picture.
     Result<double> pace(const Scene& scene, VkExtent2D extent);
     Result<void> prepare(VkExtent2D extent);
     Result<Picture> read();

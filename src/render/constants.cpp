@@ -16,8 +16,8 @@ using shader::PictureConstants;
 
 constexpr double kMostSamples = 65536;
 
-/// Whether the near plane is at depth 1. What is nearer to an eye has the larger w of world_from_clip; an orthographic
-/// camera has none, and looks towards larger depths.
+/// True if the near plane is at depth 1. Points nearer to an eye have the larger w of world_from_clip; an orthographic
+/// camera has no eye, and looks towards larger depths.
 bool isTurned(const Mat4& world_from_clip) {
     // w at depth 1 less w at depth 0, in the middle of the picture.
     return world_from_clip[11] > 0;

@@ -60,7 +60,7 @@ class SmoothGroups {
     SmoothGroups(const MeshView& mesh, std::span<const Vec3> normals, double leastCosine)
         : mesh_(mesh), normals_(normals), leastCosine_(leastCosine) {}
 
-    /// For each corner the place of the first one of its group.
+    /// For each corner, the index of the first corner of its group.
     std::span<const std::uint32_t> of(std::span<const std::uint32_t> corners) {
         groups_.resize(corners.size());
         std::iota(groups_.begin(), groups_.end(), 0U);
@@ -148,7 +148,7 @@ Result<MeshData> splitAtCreases(const MeshView& mesh, double degrees) {
                 std::span(all.order).subspan(all.first[vertex], all.first[vertex + 1] - all.first[vertex]);
             splitVertex(out, vertex, corners, groups.of(corners));
         }
-        // It may have more vertices than a mesh can.
+        // The result may have too many vertices for a mesh.
         VOXTACT_TRY(checkMesh(out.view()));
         return out;
     });

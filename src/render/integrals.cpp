@@ -10,7 +10,7 @@ namespace {
 
 /// An opacity of 1 would be an extinction without bound.
 constexpr double kMostOpacity = 0.999;
-/// Of the midpoint rule between two entries.
+/// Steps of the midpoint rule between two entries.
 constexpr int kParts = 16;
 
 using Sample = std::array<double, 4>; ///< extinction times colour, extinction; 1/mm

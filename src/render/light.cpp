@@ -21,7 +21,7 @@ double lengthOf(const Vec3& v) {
     return std::hypot(v[0], v[1], v[2]);
 }
 
-/// Of a direction in the picture, in world space: from one point of clip space to another.
+/// Converts a direction in the picture to world space: from one point of clip space to another.
 Vec3 wayBetween(const Mat4& world_from_clip, const Vec3& from, const Vec3& to) {
     // Without the divisions by w, as the shader does: the far plane may be at infinity.
     const auto row = [&](const Vec3& clip, std::size_t i) {
@@ -39,7 +39,7 @@ Vec3 wayBetween(const Mat4& world_from_clip, const Vec3& from, const Vec3& to) {
     return way;
 }
 
-/// In world space, of unit length; zero where the camera leaves none.
+/// Unit vector in world space; zero if the camera gives none.
 Vec3 sideDirection(const Vec3& from, const Mat4& world_from_clip) {
     const Vec3 right = wayBetween(world_from_clip, {-1, 0, 0}, {1, 0, 0});
     const Vec3 up = wayBetween(world_from_clip, {0, 1, 0}, {0, -1, 0});

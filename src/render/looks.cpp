@@ -23,7 +23,7 @@ constexpr ColourPoint kCtBoneColours[] = {
     {150, {0.72, 0.45, 0.33}}, {260, {0.88, 0.75, 0.58}}, {500, {0.95, 0.90, 0.78}}, {1500, {1, 1, 0.96}}};
 constexpr ControlPoint kCtBoneOpacity[] = {{150, 0}, {220, 0.1}, {320, 0.6}, {700, 0.95}};
 
-/// Skin and what is under it, solid: to be cut.
+/// Skin and deeper tissue, solid: for cuts.
 constexpr ColourPoint kCtSoftColours[] = {{-250, {0.84, 0.62, 0.50}}, {-80, {0.88, 0.68, 0.53}},
                                           {10, {0.82, 0.53, 0.43}},   {80, {0.73, 0.35, 0.29}},
                                           {200, {0.88, 0.74, 0.60}},  {500, {0.97, 0.94, 0.86}}};
@@ -55,7 +55,7 @@ constexpr ColourPoint kMrSkinColours[] = {
     {0.08, {0.76, 0.53, 0.43}}, {0.25, {0.88, 0.68, 0.56}}, {0.6, {0.95, 0.82, 0.72}}, {1, {1, 0.94, 0.88}}};
 constexpr ControlPoint kMrSkinOpacity[] = {{0.08, 0}, {0.16, 0.5}, {0.3, 0.9}, {1, 0.95}};
 
-/// What is bright in a T1 image: white matter solid, gray matter round it, the rest of the head a haze.
+/// Bright tissue of a T1 image: white matter solid, gray matter around it, the rest of the head a haze.
 constexpr ColourPoint kMrBrainColours[] = {{0.2, {0.55, 0.42, 0.40}},
                                            {0.38, {0.74, 0.52, 0.50}},
                                            {0.5, {0.86, 0.70, 0.64}},

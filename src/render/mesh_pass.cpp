@@ -25,7 +25,7 @@ void bindSets(const RendererImpl& renderer, VkCommandBuffer commandBuffer, VkPip
                                               static_cast<std::uint32_t>(sets.size()), sets.data(), 0, nullptr);
 }
 
-/// Only those that the mesh's shaders read: a scene that is painted by triangles may have no transfer function to bind.
+/// Only those that the mesh's shaders read: a scene painted by triangles may have no transfer function to bind.
 void bindMeshSets(const RendererImpl& renderer, VkCommandBuffer commandBuffer, const Scene& scene,
                   const MeshPaint& paint, const Target& target) {
     const VkPipelineLayout painted = renderer.paintLayout.get();
@@ -57,7 +57,7 @@ VkPipelineLayout meshLayout(const RendererImpl& renderer, PaintBy by) {
     return (by == PaintBy::Nobody ? renderer.pictureLayout : renderer.paintLayout).get();
 }
 
-/// `which`: of those that the buffer of constants holds.
+/// `which`: index in the buffer of constants.
 void drawMesh(const RendererImpl& renderer, VkCommandBuffer commandBuffer, const Scene& scene, const SceneMesh& drawn,
               std::uint32_t which, const Target& target) {
     const PaintBy by = paintedBy(drawn.paint.what);
@@ -84,7 +84,7 @@ void drawMesh(const RendererImpl& renderer, VkCommandBuffer commandBuffer, const
 void cmdConstants(const RenderTargetsImpl& targets, VkCommandBuffer commandBuffer, VkDeviceSize offset,
                   std::span<const std::byte> data) {
     const ContextImpl& context = targets.renderer.context;
-    // What was drawn before this still reads them.
+    // Earlier draws still read them.
     barrier(context, commandBuffer, kShaders, 0, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
     cmdUpdateBuffer(context, commandBuffer, targets.constants.get(), offset, data);
     barrier(context, commandBuffer, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, kShaders,

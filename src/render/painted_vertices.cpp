@@ -14,7 +14,7 @@ namespace {
 
 constexpr PaintName kVerticesName{"the colours of the vertices", "painted vertices"};
 
-/// As unpackUnorm4x8 reads it.
+/// Same layout as unpackUnorm4x8.
 Result<std::uint32_t> packed(const Colour& colour) {
     VOXTACT_TRY(checkColour(colour, "a vertex's colour"));
     constexpr double kMost = 255;

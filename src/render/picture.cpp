@@ -50,7 +50,7 @@ Result<void> checkUploaded(std::initializer_list<Part> parts) {
     return {};
 }
 
-/// Of a mesh whose parts belong together.
+/// For a mesh with consistent parts.
 Result<void> checkMeshUploaded(const SceneMesh& mesh) {
     const MeshPaint& paint = mesh.paint;
     const PaintBy by = paintedBy(paint.what);
@@ -112,7 +112,7 @@ Result<void> checkScene(const ContextImpl& context, const Scene& scene) {
     return checkMeshes(context, scene);
 }
 
-/// All of the picture where no part is asked for.
+/// The whole picture without an area.
 VkRect2D areaOf(const Target& target) {
     const VkRect2D& area = target.area;
     const bool whole = area.extent.width == 0 && area.extent.height == 0 && area.offset.x == 0 && area.offset.y == 0;

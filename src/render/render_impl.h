@@ -8,13 +8,13 @@
 
 namespace voxtact {
 
-/// Of the pre-integrated table, and of what the mesh pass leaves.
+/// Formats of the pre-integrated table, and of the results of the mesh pass.
 inline constexpr VkFormat kRenderTableFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 inline constexpr VkFormat kMeshColourFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 inline constexpr VkFormat kMeshDistanceFormat = VK_FORMAT_R32_SFLOAT;
 inline constexpr VkFormat kMeshDepthFormat = VK_FORMAT_D32_SFLOAT;
 
-/// That the number of a mesh is pushed to.
+/// Push constants with the index of a mesh.
 inline constexpr VkShaderStageFlags kMeshStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 
 /// Who says which part of a mesh is painted: a pipeline each.
@@ -102,15 +102,15 @@ struct PaintedVerticesImpl : PaintWords {
     using PaintWords::PaintWords;
 };
 
-/// Refuses what is not above 0, or is more or less than single precision holds. `what` begins the error text.
+/// Refuses a number that is not above 0, or out of single precision's range. `what` begins the error text.
 [[nodiscard]] Result<void> checkPositive(double value, const std::string& what);
 
-/// What is there of such words, for messages.
+/// Returns the available names, for messages.
 struct PaintName {
     const char* words = ""; ///< "the bits of the painted triangles": plural
     const char* whole = ""; ///< "painted triangles"
 };
-/// Refuses more bytes of them than the device can bind.
+/// Refuses more bytes than the device can bind.
 [[nodiscard]] Result<void> checkPaintBytes(const ContextImpl& context, VkDeviceSize bytes, const PaintName& name);
 /// `perWord`: triangles or vertices in a word.
 [[nodiscard]] Result<void> makePaintWords(PaintWords& paint, const RendererImpl& renderer,
@@ -120,7 +120,7 @@ struct PaintName {
                                           std::uint64_t perWord, const PaintName& name);
 [[nodiscard]] Result<void> cmdUploadPaintWords(PaintWords& paint, VkCommandBuffer commandBuffer, const PaintName& name);
 
-/// What a picture is recorded with.
+/// Inputs of the recording of a picture.
 struct PictureSetup {
     shader::PictureConstants constants{};
     bool depthTurned = false; ///< the camera's near plane is at depth 1
@@ -134,12 +134,12 @@ struct PictureSetup {
 [[nodiscard]] const SceneMesh& meshOf(const Scene& scene, std::size_t number) noexcept;
 /// Refuses a pose or colours that cannot be used.
 [[nodiscard]] Result<void> checkMeshLook(const SceneMesh& mesh);
-/// Of a mesh that is good.
+/// Expects a valid mesh.
 [[nodiscard]] shader::PictureMesh setUpMesh(const Scene& scene, const SceneMesh& mesh);
 
 [[nodiscard]] Result<void> checkLighting(const Lighting& lighting);
 [[nodiscard]] Result<void> checkClipPlanes(std::span<const ClipPlane> planes);
-/// Of planes and lighting that are good.
+/// Expects valid planes and lighting.
 void setClipPlanes(shader::PictureConstants& constants, const Scene& scene);
 void setLight(shader::PictureConstants& constants, const Scene& scene, const Mat4& world_from_clip);
 
@@ -148,7 +148,7 @@ void setLight(shader::PictureConstants& constants, const Scene& scene, const Mat
 void cmdMeshPass(const RendererImpl& renderer, VkCommandBuffer commandBuffer, const Scene& scene,
                  const PictureSetup& setup, const Target& target, VkRect2D area);
 
-/// Of the renderer's own images.
+/// Format of the renderer's own images.
 [[nodiscard]] VkRenderingAttachmentInfo renderAttachment(VkImageView view, VkImageLayout layout,
                                                          VkAttachmentLoadOp load);
 void beginRendering(const ContextImpl& context, VkCommandBuffer commandBuffer, VkExtent2D picture, VkRect2D area,

@@ -21,7 +21,7 @@ static_assert(VOXTACT_SET_VOLUME == 0 && PICTURE_SET_BRICKS + 1 == kBoundSets);
 static_assert(VOXTACT_SET_TRANSFER_FUNCTION == VOXTACT_SET_VOLUME + 1 && PICTURE_SET_PAINT + 1 == kBoundSets);
 static_assert(PICTURE_SET_TARGETS == VOXTACT_SET_TRANSFER_FUNCTION + 1);
 
-/// Whether a format's pixels are integers, to which the floats that a fragment shader gives cannot be written.
+/// True if a format's pixels are integers; the fragment shader's floats cannot be written to them.
 bool isOfIntegers(VkFormat format) {
     switch (format) {
     case VK_FORMAT_R8_UINT:
@@ -72,7 +72,8 @@ bool isOfIntegers(VkFormat format) {
     }
 }
 
-/// A format of Vulkan 1.0, or one of two with 16 bits of 1.3. A driver may not be asked about what is no format.
+/// A format of Vulkan 1.0, or one of two 16-bit formats of 1.3. Querying a driver about an invalid format is not
+/// allowed.
 bool mayBeAskedAbout(VkFormat format) {
     return (format > VK_FORMAT_UNDEFINED && format <= VK_FORMAT_ASTC_12x12_SRGB_BLOCK) ||
            format == VK_FORMAT_A4R4G4B4_UNORM_PACK16 || format == VK_FORMAT_A4B4G4R4_UNORM_PACK16;
@@ -203,7 +204,7 @@ Result<void> makePipelines(RendererImpl& renderer) {
     return makeVolumePipelines(renderer);
 }
 
-/// What is bound where there are no bricks.
+/// Bound without bricks.
 Result<void> makeNoBricks(RendererImpl& renderer) {
     const Result<VkBuffer> nothing = emptyBuffer(renderer.context);
     VOXTACT_TRY(nothing);

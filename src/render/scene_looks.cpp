@@ -10,13 +10,13 @@ namespace voxtact {
 
 namespace {
 
-/// What shuts in is a part of the whole: millimetres of a head are too much for a tooth.
+/// Occlusion range as a fraction of the volume: millimetres for a head are too large for a tooth.
 constexpr double kReach = 0.025; // of the diagonal
 
 struct Side {
     const char* name;
     std::size_t axis;
-    double sign; ///< of what is taken away
+    double sign; ///< sign of the removed side
 };
 constexpr Side kSides[] = {{"left", 0, 1},   {"right", 0, -1}, {"back", 1, 1},
                            {"front", 1, -1}, {"top", 2, 1},    {"bottom", 2, -1}};

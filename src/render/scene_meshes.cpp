@@ -45,7 +45,7 @@ Result<void> checkMeshLook(const SceneMesh& mesh) {
 
 shader::PictureMesh setUpMesh(const Scene& scene, const SceneMesh& mesh) {
     shader::PictureMesh constants{};
-    // The camera as it is, turned or not: what is painted is decided from these numbers, as a detector does.
+    // The camera unchanged: the paint is decided from the same numbers as by a detector.
     const Mat4 world_from_floats = worldFromFloats(mesh.world_from_object, mesh.mesh->impl().known.origin);
     const shader::PairTransform transform =
         pairTransform(scene.clip_from_world, world_from_floats, scene.volume->impl().texture_from_world);

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::uint32_t kMaxEntries = 1024;
 
-/// As tableDomain(): around the points of the opacity and of the colours.
+/// Like tableDomain(): around the points of opacity and colours.
 ValueRange domainOf(const RenderTransferFunctionDesc& desc) {
     std::vector<double> values;
     std::ranges::transform(desc.opacity.points, std::back_inserter(values), &ControlPoint::value);

@@ -36,7 +36,7 @@ namespace {
 
 constexpr std::string_view kNeedle = "needle";
 
-/// All of a text.
+/// Parses all of a text.
 std::optional<double> numberIn(std::string_view text) {
     double out = 0;
     const std::from_chars_result read = std::from_chars(text.data(), text.data() + text.size(), out);

@@ -19,10 +19,11 @@ constexpr Vec3 kUp{0, 0, 1};
 constexpr double kTrunkLength = 46;
 constexpr double kTrunkRadius = 15;
 constexpr std::uint32_t kVessels = 255; ///< eight generations; those of number n are 2n and 2n+1
-/// Of the vessel before. The radius is Murray's law: the cubes of two branches make that of the trunk.
+/// Relative to the parent vessel. The radius follows Murray's law: the cubes of two branches add up to that of the
+/// trunk.
 constexpr double kShorter = 0.84;
 constexpr double kThinner = 0.7937;
-/// Of the angle from the vessel before.
+/// Relative to the angle of the parent vessel.
 constexpr double kCosine = 0.8;
 constexpr double kSine = 0.6;
 

@@ -123,7 +123,7 @@ class Splitter {
         const std::uint32_t freshTwin = cutTriangle(twin, vertex);
         pair(half, freshTwin);
         pair(twin, fresh);
-        // The outer edge of a new triangle has changed its number, so what is queued of it may be stale.
+        // The outer edge of a new triangle has a new index, so queued entries may be stale.
         for (const std::uint32_t changed : {half, twin, fresh + 1, fresh + 2, freshTwin + 1, freshTwin + 2}) {
             queue_.push(candidate(changed));
         }

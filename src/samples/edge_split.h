@@ -8,7 +8,7 @@
 
 namespace voxtact {
 
-/// Where the new vertex goes, given the middle of the edge.
+/// Returns the position of the new vertex, given the middle of the edge.
 using PlaceMiddle = std::function<Vec3(const Vec3& middle)>;
 
 /// Splits the longest edge of a closed surface, again and again, until it has `triangles` triangles. Each split adds

@@ -17,7 +17,7 @@ namespace voxtact::view {
 
 namespace {
 
-/// Those that edit a text, or end its field.
+/// Keys that edit a text, or end its field.
 constexpr std::array kEditing{GLFW_KEY_ENTER,     GLFW_KEY_KP_ENTER, GLFW_KEY_ESCAPE, GLFW_KEY_TAB,
                               GLFW_KEY_BACKSPACE, GLFW_KEY_DELETE,   GLFW_KEY_LEFT,   GLFW_KEY_RIGHT,
                               GLFW_KEY_UP,        GLFW_KEY_DOWN,     GLFW_KEY_HOME,   GLFW_KEY_END};
@@ -72,8 +72,8 @@ const char* clipboard(void* window) {
     return text.c_str();
 }
 
-/// Begins Dear ImGui's frame with what was typed, in its order: of keys Dear ImGui knows which are down at a frame, so
-/// one that came and went between two is down in one here, and one whose turn has not come is not.
+/// Begins Dear ImGui's frame with the keystrokes in their order. Dear ImGui knows only the keys that are down at a
+/// frame: a key pressed and released between two frames is down in one, and a waiting key is up.
 void beginFrame(Keystrokes& strokes) {
     ImGuiIO& io = ImGui::GetIO();
     const Keystrokes::Frame typed = strokes.next();
@@ -113,8 +113,8 @@ Panels::Panels(GLFWwindow* window, std::span<const unsigned char> font) {
     float y = 1;
     glfwGetWindowContentScale(window, &x, &y);
     applyTheme(std::max(x, 1.0F), font);
-    // Dear ImGui calls it too. What it knows of keys is which are down at a frame, and a slow one sees none of
-    // those that came and went.
+    // Replaces Dear ImGui's callback, which sees only keys that are down at a frame: a slow frame would miss short
+    // keystrokes.
     glfwSetKeyCallback(window, onKey);
     glfwSetDropCallback(window, onDrop);
     // For the same reason.

@@ -9,7 +9,7 @@
 struct GLFWwindow;
 struct ImDrawData;
 
-/// What ties panels and frames to a window of GLFW's.
+/// Connects panels and frames to a GLFW window.
 namespace voxtact::view {
 
 /// Dear ImGui's context and what it gets of the window's input. One at a time.
@@ -22,13 +22,13 @@ class Panels {
     ~Panels();
 };
 
-/// What the panels draw of a state. Valid until the next call.
+/// Returns the draw data of the panels. Valid until the next call.
 [[nodiscard]] const ImDrawData& drawAllPanels(State& state);
 
 /// The window's surface, of which it has one at a time; the one who takes it ends it.
 [[nodiscard]] Result<VkSurfaceKHR> makeSurface(const device::Session& session, GLFWwindow* window);
 
-/// Why the window system refused what was asked for last.
+/// Returns the reason of the window system's last refusal.
 [[nodiscard]] std::string windowSystemReason();
 
 } // namespace voxtact::view

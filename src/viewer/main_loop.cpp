@@ -140,7 +140,7 @@ Result<void> MainLoop::turn() {
     return {};
 }
 
-/// A surface that is lost is made again; what is shown stays.
+/// A lost surface is recreated; the contents stay.
 Result<void> MainLoop::show() {
     State& state = *state_;
     const ImDrawData& panels = drawAllPanels(state);
@@ -164,7 +164,7 @@ Result<void> MainLoop::show() {
     return {};
 }
 
-/// Once what was loaded is shown: then the notes are of all that the window shows.
+/// After loaded data are shown, so that notes refer to all of the window's contents.
 void MainLoop::tellNotes() {
     if (std::exchange(untold_, false) && desc_->tell) {
         for (const std::string& note : state_->notes) {
@@ -173,7 +173,7 @@ void MainLoop::tellNotes() {
     }
 }
 
-/// How far it is; and, until all of it is drawn, how long frames took.
+/// Updates the progress and, until everything is drawn, the frame times.
 void MainLoop::followLoading() {
     State& state = *state_;
     if (state.loading && loader_->progress() != nullptr) {
@@ -324,7 +324,7 @@ Result<void> MainLoop::put(Loaded loaded) {
     if (*before) {
         loader_->discard(std::move(*before));
     }
-    // What was shown ends there, too: many voxels take their time.
+    // Destroys the old state, which may take long for many voxels.
     auto old = std::make_shared<State>(std::move(state));
     state = std::move(*loaded.state);
     loader_->run([old]() mutable { old.reset(); });
@@ -342,14 +342,14 @@ Result<void> MainLoop::put(Loaded loaded) {
     return {};
 }
 
-/// What was shown goes on being shown. Where there was nothing, only a choice keeps the window.
+/// The old contents stay. Without contents, only a choice keeps the window open.
 Result<void> MainLoop::refuse(LoadFailure failure) {
     State& state = *state_;
     state.loading.reset();
     if (failure.error.code == ErrorCode::Cancelled) {
         return {};
     }
-    // With a number of frames there may be nobody who chooses.
+    // With a number of frames nobody may be there to choose.
     const bool ends = state.blank && (desc_->frames || (!failure.opened && !failure.tooLarge));
     if (ends || failure.error.code == ErrorCode::DeviceLost) {
         return failure.error;
@@ -367,7 +367,7 @@ Result<void> MainLoop::refuse(LoadFailure failure) {
     return {};
 }
 
-/// What was chosen in a question.
+/// Takes the choice in a question.
 void MainLoop::takeChoice() {
     State& state = *state_;
     if (!state.question || !state.question->chosen) {

@@ -22,10 +22,10 @@ class MainLoop {
 
     MainLoop(const MainLoop&) = delete;
     MainLoop& operator=(const MainLoop&) = delete;
-    /// Cancels what is being loaded, or made for a file.
+    /// Cancels loading and saving.
     ~MainLoop();
 
-    /// Shows what `first` reads. DeviceLost where the device is; what was shown is still in the state then.
+    /// Shows the data of `first`. Returns DeviceLost if the device is lost; the state then still has its contents.
     [[nodiscard]] Result<void> run(std::function<Result<Given>(Progress&)> first);
 
   private:
@@ -34,7 +34,7 @@ class MainLoop {
     /// A picture for a file, on its way.
     struct Shooting {
         [[nodiscard]] Result<void> make();
-        /// Whether it goes on.
+        /// Returns true to continue.
         [[nodiscard]] bool tell(bool writing, std::uint32_t rowsDone, std::uint32_t rows);
 
         Shot shot;
@@ -42,7 +42,7 @@ class MainLoop {
         ShownScene shown;
         BlockingRenderer* renderer = nullptr;
         std::atomic<bool> cancel{false};
-        std::mutex mutex; ///< of what follows
+        std::mutex mutex; ///< protects the members below
         Saving done;
         std::optional<Result<void>> written; ///< when it is done
     };
@@ -78,8 +78,8 @@ class MainLoop {
     Clock::time_point shown_ = Clock::now();
     Clock::time_point began_{}; ///< the loading
     bool idle_ = false;
-    bool untold_ = false;             ///< notes of what was loaded
-    bool settling_ = false;           ///< what was loaded is there, and not all of it is drawn yet
+    bool untold_ = false;             ///< notes of loaded data are pending
+    bool settling_ = false;           ///< loaded data are there, but not completely drawn
     std::string opening_;             ///< the file that is being loaded
     std::unique_ptr<Given> tooLarge_; ///< what a question for a coarser copy is about
     std::optional<FileKind> tooLargeOpened_;

@@ -16,7 +16,7 @@ class Reporter {
     [[nodiscard]] Result<void> write(const State& state);
 
   private:
-    /// What a new file is written for.
+    /// Changes that cause a new file.
     struct Seen {
         std::uint64_t revision = 0;
         std::uint64_t measured = 0; ///< the clearance's revision
@@ -26,7 +26,7 @@ class Reporter {
         std::string error;
         std::string question;
         std::optional<std::string> field;
-        std::string step;     ///< of what is being loaded
+        std::string step;     ///< step of loading
         bool loaded = false;  ///< it is known how the last loading went
         double chartFrom = 0; ///< values of the curve's chart
         double chartTo = 0;

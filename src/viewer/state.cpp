@@ -70,7 +70,7 @@ void State::update() {
         fineShare = 0;
     }
     seen_ = {document.edit, method, camera, picture.extent, answered};
-    // They take room: what is dragged is not to go from under the pointer.
+    // Notes take space: a dragged item must not move under the pointer.
     if (!blank && noted_ != revision && (noted_ == 0 || !itemHeld)) {
         noted_ = revision;
         notes = notesOf ? notesOf(*this) : std::vector<std::string>();
@@ -150,7 +150,7 @@ void State::show(const Shown& what) {
     window = what.window.value_or(window);
 }
 
-/// Those that are filled again are forgotten.
+/// Discards the filled holes.
 void State::addHole(Hole hole, const Ball& ball) {
     balls_.resize(holes_.drilled());
     balls_.push_back(ball);
@@ -288,7 +288,7 @@ void State::remove(std::size_t number) {
     });
 }
 
-/// Where the chosen instrument is.
+/// At the position of the chosen instrument.
 void State::placeNewMeshes(std::size_t known) {
     if (known >= document.sources.meshes.size()) {
         return;

@@ -26,10 +26,10 @@
 #include <string>
 #include <vector>
 
-/// What the panels read and write, and the frames show. Neither Vulkan nor Dear ImGui.
+/// State of the panels and frames. No Vulkan or Dear ImGui.
 namespace voxtact::view {
 
-/// What the window is opened with.
+/// Initial contents of the window.
 struct Given {
     VolumeData volume;
     std::vector<MeshData> meshes; ///< of Sources::meshes
@@ -42,7 +42,7 @@ struct Given {
     std::string deviceName;        ///< that draws
 };
 
-/// What a file can be to the window.
+/// Kind of a file for the window.
 enum class FileKind { Volume, Mesh, Poses, Function, Session };
 
 /// A document that is to be shown instead, whose files are not read yet.
@@ -69,13 +69,13 @@ struct Shot {
     Extent extent; ///< pixels
 };
 
-/// How far a picture for a file is.
+/// Progress of a picture for a file.
 struct Saving {
     double share = 0;     ///< of the rows, 0..1
-    bool writing = false; ///< all of it is drawn, and it goes to the file
+    bool writing = false; ///< completely drawn, being written
 };
 
-/// A line for the person who looks: a dialog for errors, the status line for what was done.
+/// A message to the user: a dialog for errors, the status line for actions.
 struct Message {
     std::string text;
     bool error = false;
@@ -94,10 +94,10 @@ using MayWrite =
     std::function<Result<void>(const std::filesystem::path& output, const std::vector<std::string>& inputs)>;
 
 struct State;
-/// What strikes in what is shown, a sentence each.
+/// Notes on the contents, a sentence each.
 using NotesOf = std::function<std::vector<std::string>(const State&)>;
 
-/// A handle that is held, and what was there when it was taken.
+/// A held handle, with the state at the time of the press.
 struct GizmoDrag {
     Handle handle;
     Gizmo gizmo;
@@ -108,15 +108,14 @@ struct GizmoDrag {
 struct State {
     using Clock = std::chrono::steady_clock;
 
-    /// Nothing to show yet: no volume, no mesh.
+    /// No contents yet: no volume, no mesh.
     State() = default;
     explicit State(Given opened);
 
-    /// What another State goes on with that is shown instead of this: what belongs to the window, and for a mesh or a
-    /// volume that was opened what was edited meanwhile. Meshes that only the other has become instruments, by a
-    /// command; the last of them is chosen.
+    /// Passes the window's own state to a State that replaces this one and, for an added mesh or volume, the edits made
+    /// meanwhile. New meshes become instruments, by a command; the last of them is chosen.
     void passOn(State& next, std::optional<FileKind> opened);
-    /// What it was opened with and what became of that, to be opened again. Leaves nothing to show.
+    /// Returns the initial contents with all edits, to be opened again. Leaves nothing to show.
     [[nodiscard]] Given giveBack();
 
     /// Once a frame, after the panels: whether something changed, and when.
@@ -132,19 +131,19 @@ struct State {
     void drill(const Vec3& centre);
     /// Takes a pose of the list for the chosen instrument. `held`: see step().
     void takePose(std::size_t number, bool held = false);
-    /// Chooses an instrument; nothing where there is none of that number. No command, but what is moved after it is a
-    /// command of its own.
+    /// Chooses an instrument; ignores an invalid index. This is no command, but moving afterwards is a separate
+    /// command.
     void choose(std::size_t number);
     /// A command: the instrument is no longer there. Nothing for the last one.
     void remove(std::size_t number);
-    /// Of the chosen instrument; null where there is none yet.
+    /// Answer about the chosen instrument; null without one.
     [[nodiscard]] const MeshAnswer* chosenAnswer() const;
     [[nodiscard]] const MeshClearance* chosenClearance() const;
     /// Since it was made.
     [[nodiscard]] double seconds() const;
-    /// Nothing was changed for a moment.
+    /// True if nothing changed for a moment.
     [[nodiscard]] bool atRest() const;
-    /// The answer is of what is shown, and the fine picture is there.
+    /// True if the answer matches the contents, and the fine picture is complete.
     [[nodiscard]] bool settled() const { return answer && answer->revision == revision && fineShare >= 1; }
     /// Answers of the comparison are waited for.
     [[nodiscard]] bool compares() const {
@@ -154,18 +153,18 @@ struct State {
     void complain(std::string text) { error = std::move(text); }
     /// The values that the curve's chart shows: always a part of the domain.
     [[nodiscard]] ValueRange chartRange() const { return zoomedRange.value_or(document.domain); }
-    /// Paths are dropped on the window, as GLFW tells of them.
+    /// Adds paths dropped on the window, from GLFW.
     void drop(int count, const char* const* paths) { dropped.insert(dropped.end(), paths, paths + count); }
     /// Null where there is no label map.
     [[nodiscard]] const Labels* labelsOrNull() const { return labels ? &*labels : nullptr; }
-    /// Refuses a path that is a file that is shown, or was read for what is shown.
+    /// Refuses the path of a shown file or its source.
     [[nodiscard]] Result<void> checkOutput(const std::filesystem::path& path) const;
-    /// The document with what the window has of its own: camera, method, cursor, holes, and what is on.
+    /// Returns the document with the window's own state: camera, method, cursor, holes, and visible parts.
     [[nodiscard]] Document saved() const;
 
     bool blank = true; ///< nothing to show yet: only the window's own parts count
 
-    // What it was opened with.
+    // Initial contents
     VolumeData volume;
     std::vector<MeshData> meshes; ///< of Sources::meshes, also those that were removed
     std::optional<Labels> labels;
@@ -178,7 +177,7 @@ struct State {
     Histogram histogram;               ///< over the transfer function's domain
     std::vector<MethodChoice> methods; ///< that this machine can do
 
-    // What is edited.
+    // Edited state
     Document document;
     History<Edit> history;
     MethodChoice method;
@@ -186,11 +185,11 @@ struct State {
     Vec3 cursor{};
     ValueRange window; ///< of the slices: black and white
 
-    HoleWrites writes; ///< to the volume since it was read, for those who have copies of it
+    HoleWrites writes; ///< changes of the volume since it was read, for its copies
 
-    // What is shown.
-    std::uint64_t revision = 1;        ///< of what an answer depends on
-    std::uint64_t pictureRevision = 1; ///< of what the large picture depends on
+    // Contents
+    std::uint64_t revision = 1;        ///< changes with inputs of the answer
+    std::uint64_t pictureRevision = 1; ///< changes with inputs of the large picture
     std::optional<LiveAnswer> answer;
     std::optional<LiveClearance> clearance; ///< of this question or one before
     Comparison comparison;                  ///< of the methods, while `comparing`
@@ -212,10 +211,10 @@ struct State {
     std::vector<std::string> read;    ///< poses and transfer functions, of all that was opened
     MayWrite mayWrite;                ///< empty: everything may be written
 
-    // What the panels have of their own.
+    // State of the panels
     std::vector<KeyPress> keys; ///< since the last frame
     Keystrokes keystrokes;      ///< of texts, that no frame had yet
-    Pointer pointer;            ///< what frames have not seen of it
+    Pointer pointer;            ///< pending pointer events
     bool itemHeld = false;      ///< by the mouse or the keyboard, as of the last frame
     bool entered = false;       ///< Enter was pressed since the last frame
     bool escaped = false;       ///< Escape, too

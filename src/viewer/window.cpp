@@ -22,7 +22,7 @@ struct WindowEnd {
 };
 using WindowHandle = std::unique_ptr<GLFWwindow, WindowEnd>;
 
-/// As it was made larger for a display of many pixels.
+/// Scaled for a high-resolution display.
 void limitSize(GLFWwindow* window) {
     float x = 1;
     float y = 1;
@@ -34,7 +34,7 @@ void limitSize(GLFWwindow* window) {
                             GLFW_DONT_CARE);
 }
 
-/// What goes on after a device was lost.
+/// Question after a lost device.
 Question lostQuestion(const std::string& device, const Error& error) {
     Question question;
     question.kind = Question::Kind::Lost;
@@ -47,7 +47,7 @@ Question lostQuestion(const std::string& device, const Error& error) {
     return question;
 }
 
-/// The error with the place where what was shown is kept.
+/// Returns the error with the path of the saved session.
 Error rescued(const Error& error, const Document& document) {
     Error out = error;
     const std::filesystem::path path = stateFolder() / "rescued-session.json";
@@ -78,7 +78,7 @@ class Devices {
             if (!state_->blank) {
                 kept_ = state_->saved();
             }
-            // Lost again before anybody has answered what is asked about the first time, it would go on like that.
+            // A second loss before the user has answered would repeat forever.
             if (state_->blank || (state_->question && state_->question->kind == Question::Kind::Lost)) {
                 return kept_ ? rescued(ended.error(), *kept_) : ended.error();
             }
@@ -93,7 +93,7 @@ class Devices {
         }
         return [this, &session](Progress& progress) { return desc_->first(session, progress); };
     }
-    /// What was shown when the device was lost.
+    /// Returns the contents before the device was lost.
     [[nodiscard]] std::function<Result<Given>(Progress&)> again() const {
         return [given = given_](Progress&) -> Result<Given> { return std::move(*given); };
     }
@@ -108,7 +108,7 @@ class Devices {
     State* state_;
     const WindowDesc* desc_;
     std::shared_ptr<Given> given_;
-    std::optional<Document> kept_; ///< what was shown last
+    std::optional<Document> kept_; ///< last document
 };
 
 } // namespace

@@ -24,9 +24,9 @@ class Display {
     Display& operator=(const Display&) = delete;
     ~Display();
 
-    /// What an instance must have to show pictures in a window. Valid as long as this.
+    /// Returns the instance extensions for a window. Valid as long as this.
     [[nodiscard]] std::vector<const char*> instanceExtensions() const;
-    /// The same of a device.
+    /// Returns the device extensions for a window.
     [[nodiscard]] std::vector<const char*> deviceExtensions() const;
 
   private:
@@ -38,7 +38,7 @@ struct WindowDesc {
     std::span<const unsigned char> font;        ///< a TrueType file; outlives the window
     std::function<Lighting(const Grid&)> light; ///< of the fine picture of a volume
     MayWrite mayWrite;                          ///< of all that is saved
-    NotesOf notes;                              ///< what strikes in what is shown; empty: nothing
+    NotesOf notes;                              ///< notes on the contents; may be empty
     /// Told of the notes of all that is opened, besides what the window says.
     std::function<void(const std::string& note)> tell;
     std::filesystem::path reportState;   ///< a file to write after each answer; empty: none
@@ -47,13 +47,13 @@ struct WindowDesc {
 
     /// A device to draw on, with the display's extensions; asked again when that was lost.
     std::function<Result<std::unique_ptr<device::Session>>()> session;
-    /// What is shown at first; empty where `opened` is given. An error ends the window.
+    /// Initial contents; empty if `opened` is set. An error ends the window.
     std::function<Result<Given>(const device::Session&, Progress&)> first;
     /// A session that is opened at first, as if it were with the menu.
     std::optional<Wanted> opened;
     /// Reads the files of a document that is wanted while the window is there.
     std::function<Result<Given>(const Wanted&, const device::Session&, Progress&)> open;
-    /// How a device answers best.
+    /// Returns the default method of a device.
     std::function<MethodChoice(const device::Session&)> method;
 };
 

@@ -2,6 +2,8 @@
 // What the program says of its arguments. No device is needed.
 #include "cli_fixture.h"
 
+#include <sstream>
+
 namespace voxtact::test {
 namespace {
 
@@ -36,6 +38,45 @@ TEST_F(ArgumentsTest, HelpOfEverythingHasAnExample) {
         command.push_back("--help");
         EXPECT_THAT(output(command), HasSubstr("Example")) << testing::PrintToString(command);
     }
+}
+
+/// Returns the commands that a help text lists.
+std::vector<std::string> commandsIn(const std::string& help) {
+    std::vector<std::string> commands;
+    const std::size_t list = help.find("Subcommands:\n");
+    std::istringstream lines(list == std::string::npos ? "" : help.substr(list));
+    std::string line;
+    for (std::getline(lines, line); std::getline(lines, line) && !line.empty();) {
+        std::string& command = commands.emplace_back();
+        std::istringstream(line) >> command;
+    }
+    return commands;
+}
+
+TEST_F(ArgumentsTest, HelpFitsAScreen) {
+    constexpr std::size_t kMaxLines = 45;
+    constexpr std::size_t kMaxColumns = 80;
+    std::vector<Arguments> commands{{}};
+    for (std::size_t i = 0; i < commands.size(); ++i) {
+        Arguments asked = commands[i];
+        asked.push_back("--help");
+        const Ran ran = run(asked);
+        if (ran.err.find("is not beside this program") != std::string::npos) {
+            continue; // a build without the window or the measurements
+        }
+        const std::string& help = ran.out;
+        const auto lines = linesOf(help);
+        EXPECT_FALSE(lines.empty()) << ran.err;
+        EXPECT_LE(lines.size(), kMaxLines) << testing::PrintToString(asked);
+        for (const std::string& line : lines) {
+            EXPECT_LE(line.size(), kMaxColumns) << testing::PrintToString(asked) << line;
+        }
+        for (const std::string& command : commandsIn(help)) {
+            commands.push_back(commands[i]);
+            commands.back().push_back(command);
+        }
+    }
+    EXPECT_EQ(commands.size(), 18U);
 }
 
 TEST_F(ArgumentsTest, HelpIsACommand) {

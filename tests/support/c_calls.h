@@ -20,7 +20,7 @@ namespace voxtact::test {
 /// A handle, ended by its own function.
 template <class Handle> using Owned = std::unique_ptr<Handle, void (*)(Handle*)>;
 
-/// What must succeed.
+/// Fails the test unless the call succeeds.
 inline void need(vxt_result result) {
     if (result != VXT_OK) {
         throw std::runtime_error(std::string("unexpected error: ") + vxt_last_error(nullptr));
@@ -34,7 +34,7 @@ template <class T> [[nodiscard]] T sized() {
     return out;
 }
 
-/// Where an argument is, during the call.
+/// Address of an argument, during the call.
 template <class T> const T* at(const T& argument) {
     return &argument;
 }
@@ -48,7 +48,7 @@ Owned<Handle> made(void (*destroy)(Handle*), const Make& make, Arguments... argu
     return {handle, destroy};
 }
 
-/// What the views of read or built data are, which must be there.
+/// Returns the view of read or built data, which must exist.
 [[nodiscard]] inline vxt_volume_view dataView(const Owned<vxt_volume_data>& data) {
     vxt_volume_view view = sized<vxt_volume_view>();
     need(vxt_volume_data_view(data.get(), &view));
@@ -65,7 +65,7 @@ Owned<Handle> made(void (*destroy)(Handle*), const Make& make, Arguments... argu
 [[nodiscard]] vxt_mesh_view cMesh(const MeshData& mesh);
 [[nodiscard]] vxt_view cView(const View& view);
 [[nodiscard]] std::vector<vxt_control_point> cPoints(const std::vector<ControlPoint>& points);
-/// Looks at `points`.
+/// References `points`.
 [[nodiscard]] vxt_transfer_function_desc cFunction(const std::vector<vxt_control_point>& points,
                                                    const ValueRange& domain, std::uint32_t tableSize);
 [[nodiscard]] std::uint32_t cOutputs(const Outputs& outputs);
@@ -108,9 +108,9 @@ template <class T>
     return out;
 }
 
-/// An answer about fragments as C++ has it.
+/// Converts an answer about fragments to C++.
 [[nodiscard]] BatchAnswer answerOf(const vxt_answer& answer);
-/// As differenceOf() of contact_scenes.h, and every member of the pairs too.
+/// Like differenceOf() of contact_scenes.h, including every member of the pairs.
 [[nodiscard]] std::string wholeDifferenceOf(const BatchAnswer& a, const BatchAnswer& b);
 
 } // namespace voxtact::test

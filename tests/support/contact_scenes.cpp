@@ -44,7 +44,7 @@ VolumeData sampled(const Grid& grid, const std::function<double(const Vec3&)>& d
     });
 }
 
-/// A mesh at the middle of the volume, and a camera that sees all of it.
+/// A mesh at the middle of the volume, and a camera that sees the whole mesh.
 ContactScene sceneIn(const Grid& grid, std::string name, double meshSide, std::mt19937_64& random) {
     ContactScene scene;
     scene.name = std::move(name);
@@ -80,7 +80,7 @@ ContactScene ball(std::mt19937_64& random) {
     scene.place = [=](const Vec3& at) {
         return Place{unit(minus(at, centre)), depth(at), length(minus(at, centre)) > 6 && voxelsInside(grid, at) > 2};
     };
-    // Second differences of the distance are 1/r; so is what a voxel and a half of 1.4 mm make of them.
+    // Second differences of the distance are 1/r; their effect over one and a half voxels of 1.4 mm.
     scene.degrees = 1.5;
     scene.mm = 0.06;
     return scene;
@@ -107,8 +107,7 @@ ContactScene box(std::mt19937_64& random) {
     scene.volume = sampled(grid, [=](const Vec3& at) { return faces(at)[0].first; });
     scene.place = [=](const Vec3& at) {
         const auto nearest = faces(at);
-        // One face only is seen by the cells that the differences look at, which reach less than 3.5 mm away, and by
-        // the way out.
+        // Only one face lies in the cells of the differences, which reach less than 3.5 mm, and on the way out.
         const bool sure = nearest[1].first - nearest[0].first > 5 && voxelsInside(grid, at) > 2;
         return Place{nearest[0].second, nearest[0].first, sure};
     };
@@ -221,7 +220,7 @@ bool labelIsDoubtful(const LabelData& labels, const Vec3& world) {
 }
 
 std::string differenceOf(const BatchAnswer& a, const BatchAnswer& b) {
-    // As bits: NaN is what it is, and so is -0.
+    // Compares bits: NaN equals itself, -0 differs from 0.
     const auto bits = [](const Contact& contact) {
         return std::tuple(contact.pair, contact.triangle, std::bit_cast<std::array<std::uint64_t, 3>>(contact.position),
                           std::bit_cast<std::array<std::uint64_t, 3>>(contact.normal),

@@ -10,7 +10,7 @@
 
 namespace voxtact::test {
 
-/// What is known of a place beforehand.
+/// Known facts of a position.
 struct Place {
     Vec3 normal{};
     double depth = 0; ///< mm
@@ -40,7 +40,7 @@ struct ContactScene {
 /// is linear in it.
 [[nodiscard]] std::vector<ContactScene> makeContactScenes(std::mt19937_64& random);
 
-/// How far off the contacts of a scene are.
+/// Errors of the contacts of a scene.
 struct ContactErrors {
     std::size_t compared = 0; ///< contacts at places that are sure
     double degrees = 0;       ///< the most
@@ -52,14 +52,14 @@ struct ContactErrors {
 
 /// A label map with several labels, negative ones among them, on a grid of its own around the volume's.
 [[nodiscard]] VolumeData makeLabelImage(std::mt19937_64& random, const Grid& around);
-/// Whether a point is so near to a face of a voxel of the label map that its label may be that of the neighbour.
+/// True if a point is so near to a face of a voxel of the label map that its label may be that of the neighbour.
 [[nodiscard]] bool labelIsDoubtful(const LabelData& labels, const Vec3& world);
 
 /// Everything of two answers but their times and methods, bit for bit. The text says where they differ first; empty
 /// where they do not.
 [[nodiscard]] std::string differenceOf(const BatchAnswer& a, const BatchAnswer& b);
-/// What must hold within any answer: the counts, and what is summed over triangles, contacts, boxes and labels. Empty
-/// where it does. Expects all outputs, and a list that is not cut.
+/// Checks an answer's consistency: the counts against the sums over triangles, contacts, boxes and labels. Returns the
+/// differences; empty if there are none. Expects all outputs, and a list that is not cut.
 [[nodiscard]] std::string inconsistencyOf(const BatchAnswer& answer);
 
 } // namespace voxtact::test

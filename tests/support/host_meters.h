@@ -22,7 +22,7 @@ template <class Question> Result<HostEngine> engineFor(const Question& question,
     return refused.ok() ? std::move(engine) : Result<HostEngine>(refused.error());
 }
 
-/// What `touch` says, as a count of 0 or 1.
+/// Converts the answer of `touch` to a count of 0 or 1.
 inline Result<BatchAnswer> asCounts(const Result<TouchAnswer>& touched) {
     if (!touched.ok()) {
         return touched.error();

@@ -4,7 +4,7 @@
 #include <vulkan/vk_layer.h>
 #include <vulkan/vulkan_core.h>
 
-/// What a Vulkan layer of the tests finds the next one down the chain by.
+/// Link to the next Vulkan layer in the chain.
 namespace voxtact::test {
 
 /// The part of a create info's chain that the loader has for layers.

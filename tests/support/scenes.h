@@ -67,7 +67,7 @@ Mat4 randomMotion(std::mt19937_64& random);
 /// The volume after a rigid motion of the world.
 VolumeData moved(VolumeData volume, const Mat4& motion);
 double uniform(std::mt19937_64& random, double lo, double hi);
-/// The same, as a float.
+/// Like uniform(), as a float.
 inline float drawn(std::mt19937_64& random, double lo, double hi) {
     return static_cast<float>(uniform(random, lo, hi));
 }
@@ -75,9 +75,9 @@ inline float drawn(std::mt19937_64& random, double lo, double hi) {
 std::vector<Mat4> randomPoses(const Grid& grid, std::size_t count, double grow, std::mt19937_64& random);
 /// A pose whose elements are floats, as one on a device.
 Mat4 floatPose(const Mat4& pose);
-/// Whether tests run in the long form: VOXTACT_TEST_LONG is set; ./run test --long.
+/// True if tests run in the long form: VOXTACT_TEST_LONG is set; ./run test --long.
 bool longTests();
-/// How many random cases a test takes: `whole` in the long form, otherwise a `part`-th of it.
+/// Number of random cases of a test: `whole` in the long form, otherwise a `part`-th of it.
 std::size_t randomCases(std::size_t whole, std::size_t part);
 /// The seed of this run: printed, and taken from VOXTACT_TEST_SEED where that is set.
 std::uint64_t testSeed();

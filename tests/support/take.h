@@ -8,7 +8,7 @@
 
 namespace voxtact::test {
 
-/// What a Result holds; an exception with its text where that is an error, which fails the test.
+/// Returns the value of a Result; throws its error text, which fails the test.
 template <class T> T take(Result<T> result) {
     if (!result.ok()) {
         throw std::runtime_error(result.error().text);

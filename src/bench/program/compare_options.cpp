@@ -63,17 +63,16 @@ void readSweep(const std::string& name, CompareOptions& options) {
 }
 
 void addPoseOptions(CLI::App& parser, CompareOptions& options) {
-    parser.get_option("--poses")->description(
-        "a world_from_object matrix a line: 16 numbers, row by row; default: random ones, as make poses gives");
+    parser.get_option("--poses")->description("4x4 matrices, 16 numbers per line; default: random");
     addWholeNumber(
         parser, "--number", [&options](std::uint32_t number) { options.number = number; },
-        {.least = 1, .most = kMostPoses}, "how many random poses", options.number);
+        {.least = 1, .most = kMostPoses}, "number of random poses", options.number);
     addSeed(parser, options.seed);
     parser.get_option("--number")->excludes("--poses");
     parser.get_option("--seed")->excludes("--poses");
     addWholeNumber(
         parser, "--only-pose", [&options](std::uint32_t pose) { options.onlyPose = pose; }, {},
-        "this pose alone, by its number from 0", std::nullopt);
+        "compare only this pose, by its index", std::nullopt);
 }
 
 } // namespace
@@ -90,32 +89,32 @@ void addCompareOptions(CLI::App& parser, CompareOptions& options) {
     parser
         .add_option_function<std::string>(
             "--methods", [&options](const std::string& list) { readMethods(list, options.settings.methods); },
-            "which, as a list: " + methodNames() + "; default: all that the device can do, and cpu")
+            methodNames() + "; default: all")
         ->type_name("LIST");
-    addWholeNumber(
-        parser, "--oracle", options.settings.oraclePoses, 0,
-        "poses that are checked fragment by fragment against the oracle, spread evenly over those that touch, and over "
-        "the others where these are too few; 0: none");
+    addWholeNumber(parser, "--oracle", options.settings.oraclePoses, 0,
+                   "poses to check by fragment against the oracle");
     parser
         .add_option_function<std::string>(
             "--sweep", [&options](const std::string& name) { readSweep(name, options); },
-            "what is timed: batch, triangles, fragments, voxels, all, none; default: batch, and all with --report")
+            "batch, triangles, fragments, voxels, all, none; default: batch; with --report: all")
         ->type_name("NAME");
-    addWholeNumber(parser, "--repetitions", options.settings.repeats, 1, "samples of each time, after a warm-up");
+    addWholeNumber(parser, "--repetitions", options.settings.repeats, 1, "samples per time, after a warm-up");
     addTimeLimit(parser, options.settings.timeLimit,
-                 "seconds for the samples of a sweep: fewer than --repetitions are taken where they do not fit");
+                 "time for the samples of a sweep, seconds; may reduce --repetitions");
     parser.add_flag("--keep-going", options.settings.keepGoing,
-                    "when methods disagree, time them and still write the outputs; the exit status stays 3");
+                    "after a disagreement, time the methods and write outputs; exit status 3");
     CLI::Option* localize =
-        parser.add_flag("--localize", options.localize,
-                        "which triangles touch, by each way to tell, instead; 8 poses and 3 repetitions unless given");
-    addPath(parser, "--report", options.report, "an HTML page of tables, in one file");
+        parser.add_flag("--localize", options.localize, "compare methods to find touched triangles instead");
+    addPath(parser, "--report", options.report, "HTML page of tables");
     for (const char* other : {"--methods", "--oracle", "--sweep", "--report"}) {
         localize->excludes(other);
     }
     addDeviceOptions(parser, options.device);
     addOutputOptions(parser, options.output);
     addProgressOption(parser, options.progress);
+    for (const char* rare : {"--camera", "--seed", "--only-pose", "--time-limit", "--keep-going"}) {
+        setRare(parser, rare);
+    }
 }
 
 } // namespace voxtact::app

@@ -10,10 +10,10 @@ namespace voxtact::app {
 namespace {
 
 constexpr std::size_t kChannels = 4;
-/// Samples along each side of a pixel that a polygon is looked up at.
+/// Samples of a polygon per side of a pixel.
 constexpr int kSamples = 4;
 
-/// Whether a point is on the inner side of every edge, whichever way round the corners go.
+/// True if a point is on the inner side of every edge, for either orientation.
 bool isInside(std::span<const Point> corners, const Point& at) {
     bool left = false;
     bool right = false;
@@ -27,7 +27,7 @@ bool isInside(std::span<const Point> corners, const Point& at) {
     return !(left && right);
 }
 
-/// How much of the pixel.
+/// Returns the covered share of the pixel.
 double coverage(std::span<const Point> corners, int x, int y) {
     int inside = 0;
     for (int i = 0; i < kSamples * kSamples; ++i) {

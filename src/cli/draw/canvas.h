@@ -26,7 +26,7 @@ struct Box2 {
     [[nodiscard]] double height() const { return bottom - top; }
 };
 
-/// How much of each pixel of a rectangle something covers.
+/// Coverage of each pixel of a rectangle.
 struct Mask {
     int left = 0;
     int top = 0;

@@ -31,7 +31,7 @@ float scaleOf(double size) {
     return stbtt_ScaleForMappingEmToPixels(&font(), static_cast<float>(size));
 }
 
-/// How many bytes a sequence of UTF-8 has, from its first; 0: none begins with it.
+/// Returns the length of a UTF-8 sequence from its first byte; 0: not a first byte.
 std::size_t sequenceLength(unsigned char first) {
     return first < 0x80                    ? 1
            : first >= 0xC2 && first < 0xE0 ? 2
@@ -113,7 +113,7 @@ void addGlyph(Mask& mask, int glyph, double size, const Point& at) {
     }
 }
 
-/// What is within `radius` pixels of the mask, softer outwards.
+/// Returns the mask dilated by `radius` pixels, softer outwards.
 Mask rimOf(const Mask& mask, double radius) {
     Mask rim = mask;
     const int reach = static_cast<int>(std::ceil(radius));

@@ -68,7 +68,7 @@ Json boxOf(const PairOptions& options, const KeptBounds& kept) {
 
 void writeContactsMarkups(std::ostream& out, const PairOptions& options, const PairInputs& inputs,
                           const ContactList& list) {
-    // Point by point: a million of them as one value would take gigabytes.
+    // Point by point: one JSON value of a million points would take gigabytes.
     out << "{\n\"@schema\": " << dump(kSchema) << ",\n\"markups\": [\n"
         << "{\"type\": \"Fiducial\", \"coordinateSystem\": \"LPS\", \"coordinateUnits\": \"mm\", \"locked\": true,\n"
         << "\"labelFormat\": \"%N-%d\", \"name\": \"contacts\", \"controlPoints\": [";

@@ -14,7 +14,7 @@ namespace voxtact::app {
 
 namespace {
 
-/// Of a millimetre or its square: more digits say nothing.
+/// Fractions of a millimetre or its square; more digits have no meaning.
 constexpr double kPrintedParts = 1e6;
 
 std::string rounded(double value) {

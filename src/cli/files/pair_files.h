@@ -23,7 +23,7 @@ struct SideFile {
 /// pose,triangle,count; with several meshes or volumes also mesh,volume.
 void writeTriangle(std::ostream& out, const PairOptions& options, const Row& row, const TouchedTriangle& touched);
 
-/// What there is for a file of contacts; `bounds` with --bounds only.
+/// Inputs of a file of contacts; `bounds` with --bounds only.
 struct ContactList {
     std::span<const KeptContact> contacts;
     std::span<const KeptBounds> bounds;
@@ -32,11 +32,12 @@ struct ContactList {
 /// The endings of a file of contacts, as a message names them.
 [[nodiscard]] std::string contactEndings();
 [[nodiscard]] bool isContactEnding(const std::filesystem::path& path);
-/// Whether it is .csv or .ply.
+/// Returns true for .csv and .ply.
 [[nodiscard]] bool isWitnessEnding(const std::filesystem::path& path);
-/// By the ending of --witness. CSV: pose,mesh,volume,triangle,mesh_x,...,volume_z,label, then the gradient of the
-/// distance, per_x,...,per_rz; with names of labels also label_name. PLY, ASCII: two vertices a pair, on the mesh and
-/// in the volume, and an edge between them. World mm.
+/// Writes witness points, in the format of the ending of --witness. CSV:
+/// pose,mesh,volume,triangle,mesh_x,...,volume_z,label, then the gradient of the distance, per_x,...,per_rz; with names
+/// of labels also label_name. PLY, ASCII: two vertices per pair, on the mesh and in the volume, and an edge between
+/// them. World mm.
 void writeWitnesses(std::ostream& out, const PairOptions& options, const PairInputs& inputs,
                     std::span<const KeptClosest> kept);
 /// pose,mesh,volume,triangle,triangle_area,lower,upper.
@@ -46,19 +47,19 @@ void writeTriangleArea(std::ostream& out, const PairOptions& options, const Row&
 /// Rounds outward to a millionth of a mm^2, or to a hundredth of a small tolerance.
 [[nodiscard]] Bounds roundedOutward(const Bounds& bounds, double tolerance);
 
-/// By the ending of --contacts.
+/// Writes contacts, in the format of the ending of --contacts.
 void writeContacts(std::ostream& out, const PairOptions& options, const PairInputs& inputs, const ContactList& list);
 
 /// pose,triangle,x,y,z,nx,ny,nz,depth,value,opacity,label; with names of labels also label_name, with several
 /// meshes or volumes also mesh,volume. World mm.
 void writeContactsCsv(std::ostream& out, const PairOptions& options, const PairInputs& inputs, const ContactList& list);
-/// The same as points with normals and colours: binary little-endian PLY, in the order of the CSV. mesh and volume are
-/// numbers, which comments name.
+/// Writes contacts as points with normals and colours: binary little-endian PLY, in the order of the CSV. mesh and
+/// volume are indices, named in comments.
 void writeContactsPly(std::ostream& out, const PairOptions& options, const PairInputs& inputs, const ContactList& list);
-/// As points with their normals for VTK and ParaView, with the boxes of `bounds` as lines: XML PolyData with appended
-/// raw arrays. mesh and volume are numbers, which a comment names.
+/// Writes contacts as points with normals for VTK and ParaView, with the boxes of `bounds` as lines: XML PolyData with
+/// appended raw arrays. mesh and volume are indices, named in a comment.
 void writeContactsVtp(std::ostream& out, const PairOptions& options, const PairInputs& inputs, const ContactList& list);
-/// As markups for 3D Slicer: a list of points, and a box of interest for each of `bounds`. LPS.
+/// Writes contacts as markups for 3D Slicer: a list of points, and a region of interest per box of `bounds`. LPS.
 void writeContactsMarkups(std::ostream& out, const PairOptions& options, const PairInputs& inputs,
                           const ContactList& list);
 

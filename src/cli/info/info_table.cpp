@@ -17,7 +17,7 @@ namespace voxtact::app {
 
 namespace {
 
-/// To a nanometre: more digits say nothing.
+/// Rounds to a nanometre; more digits have no meaning.
 double rounded(double value) {
     constexpr double kParts = 1e6;
     return std::round(value * kParts) / kParts + 0.0;

@@ -18,7 +18,7 @@ struct MeshInfo {
     std::string hint; ///< what strikes in its size; empty: nothing
 };
 
-/// What a path holds: a volume or a mesh.
+/// Contents of a path: a volume or a mesh.
 struct PathInfo {
     std::string path;
     std::optional<VolumeInfo> volume;
@@ -27,7 +27,7 @@ struct PathInfo {
 
 /// A row a path; columns that are about the other kind are empty.
 [[nodiscard]] io::Table infoTable(const std::vector<PathInfo>& paths);
-/// For reading: a block a path, with the histogram as bars.
+/// Writes text: one block per path, with the histogram as bars.
 void writeInfoText(std::ostream& out, const std::vector<PathInfo>& paths, double threshold);
 
 } // namespace voxtact::app

@@ -7,7 +7,7 @@
 
 namespace voxtact::app {
 
-/// How the triangles of a mesh hang together. An edge is a pair of vertices.
+/// Connectivity of a mesh's triangles. An edge is a pair of vertices.
 struct Closedness {
     std::uint64_t open = 0;   ///< edges of one triangle
     std::uint64_t many = 0;   ///< edges of more than two triangles

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kBins = 16;
 
-/// Which world axis each index axis runs along, each once: the largest component first.
+/// Returns the world axis of each index axis, each once: assigns the largest component first.
 std::array<std::size_t, 3> worldAxes(const Grid& grid) {
     std::array<std::size_t, 3> along{};
     std::array<bool, 3> indexDone{};
@@ -50,7 +50,7 @@ double obliqueness(const Grid& grid) {
         const double cosine = std::min(std::abs(grid.direction[3 * i + along[i]]), 1.0);
         most = std::max(most, std::acos(cosine) * 180 / std::numbers::pi);
     }
-    // What the float numbers of a header leave.
+    // Degrees below the rounding of float headers.
     constexpr double kNothing = 0.05;
     return most < kNothing ? 0 : most;
 }

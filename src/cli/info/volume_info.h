@@ -15,7 +15,7 @@ struct HistogramBin {
     std::uint64_t voxels = 0;
 };
 
-/// What a volume holds.
+/// Facts of a volume.
 struct VolumeInfo {
     Grid grid;
     ScalarType type = ScalarType::UInt8;

@@ -55,11 +55,11 @@ struct MakePosesOptions {
     std::filesystem::path path;
 };
 
-/// What writes a file, which is whole or not there. A signal before it leaves nothing behind either.
+/// Runs a function that writes a file atomically. An earlier signal leaves no file.
 template <class Write> Outcome written(const Write& write) {
     const InterruptGuard guard;
     const Result<void> result = write();
-    // Where all went well, the file is complete: nothing asks about signals while a mesh is written.
+    // On success the file is complete: writing a mesh does not check for signals.
     return result.ok() ? Outcome() : interrupted() ? interruptOutcome("nothing is written") : Outcome(result.error());
 }
 
@@ -177,17 +177,17 @@ Command addMakeFile(CLI::App& make, const char* name, const char* what, const ch
     CLI::App* parser = make.add_subcommand(name, what);
     parser->footer(footer);
     parser->add_option("SOURCE", options->source, sources)->type_name("")->required();
-    parser->add_option("OUTPUT", options->path, "the file to write")->type_name("")->required();
+    parser->add_option("OUTPUT", options->path, "output file")->type_name("")->required();
     return {parser, [options, run] { return run(*options); }};
 }
 
 Command addMakePoses(CLI::App& make) {
     auto options = std::make_shared<MakePosesOptions>();
-    CLI::App* parser = make.add_subcommand("poses", "writes random rigid poses around a volume, for --poses");
+    CLI::App* parser = make.add_subcommand("poses", "write random rigid poses around a volume");
     parser->footer(kPosesFooter);
     addVolumeOption(*parser, options->volumes);
     addMeshOptions(*parser, options->meshes);
-    addWholeNumber(*parser, "--number", options->number, 1, "how many poses");
+    addWholeNumber(*parser, "--number", options->number, 1, "number of poses");
     addSeed(*parser, options->seed);
     addPath(*parser, "-o,--output", options->path, "output file; -: standard output");
     return {parser, [options] { return makePoses(*options); }};
@@ -196,14 +196,14 @@ Command addMakePoses(CLI::App& make) {
 } // namespace
 
 std::vector<Command> addMake(CLI::App& program) {
-    CLI::App* make = program.add_subcommand("make", "write builtin meshes, volumes and random poses to files");
+    CLI::App* make = program.add_subcommand("make", "write builtin meshes, volumes and random poses");
     make->require_subcommand(1);
     make->footer("Example:\n  voxtact make mesh builtin:scalpel:3068 scalpel.stl");
     return {
-        addMakeFile(*make, "mesh", "writes a builtin mesh",
+        addMakeFile(*make, "mesh", "write a builtin mesh",
                     "builtin:scalpel[:TRIANGLES], builtin:ellipsoid[:TRIANGLES] or builtin:needle[:DIAMETER:LENGTH]",
                     kMeshFooter, makeMesh),
-        addMakeFile(*make, "volume", "writes a builtin volume",
+        addMakeFile(*make, "volume", "write a builtin volume",
                     "builtin:NAME[:SIZE] with head, sphere, noise, ct, shells or vessels, SIZE voxels per side",
                     kVolumeFooter, makeVolume),
         addMakePoses(*make),

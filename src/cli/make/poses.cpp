@@ -20,9 +20,9 @@ namespace {
 constexpr double kMargin = 0.1; ///< of the box's side
 /// Starts for each pose around the onset.
 constexpr std::uint64_t kTries = 100;
-/// How exactly the onset is found, in voxels.
+/// Precision of the onset, in voxels.
 constexpr double kOnsetError = 1.0 / 64;
-/// Of a stroke: voxels from the pose around the onset.
+/// Length of a stroke: voxels outside the onset.
 constexpr double kOutside = 10;
 constexpr double kInside = 2;
 /// Ticks in, as many out, and then on to the next one's begin.
@@ -42,7 +42,7 @@ class Random {
     std::mt19937_64 engine_;
 };
 
-/// Not the origin.
+/// Excludes the origin.
 glm::dvec2 inUnitDisc(Random& random) {
     glm::dvec2 point;
     do {
@@ -88,7 +88,7 @@ Mat4 movedBy(const Mat4& pose, const Vec3& direction, double length) {
     return out;
 }
 
-/// As far as a mesh that touches a volume can have to go to leave it.
+/// Returns the maximum distance that separates a touching mesh from a volume.
 double farthest(const Grid& grid, const MeshView& mesh) {
     Vec3 lo{mesh.positions[0], mesh.positions[1], mesh.positions[2]};
     Vec3 hi = lo;

@@ -17,15 +17,14 @@ inline constexpr std::uint32_t kMostPoses = 10'000'000;
 /// arithmetic. The mesh must have a vertex and the grid must be one that checkGrid() accepts.
 [[nodiscard]] std::vector<Mat4> randomPoses(const Grid& grid, const MeshView& mesh, std::uint32_t count,
                                             std::uint64_t seed);
-/// The same poses, one after the other: none is held. Ends where `take` returns false.
+/// Calls `take` for the same poses, one after the other, without storing them. Ends if `take` returns false.
 void forRandomPoses(const Grid& grid, const MeshView& mesh, std::uint64_t count, std::uint64_t seed,
                     const std::function<bool(const Mat4&)>& take);
 
-/// The same poses with their elements rounded to floats, so that an engine whose poses are on the device is asked what
-/// the others are.
+/// Rounds the elements of poses to floats, so that all engines get the poses of an engine with poses on the device.
 [[nodiscard]] std::vector<Mat4> asFloats(std::vector<Mat4> poses);
 
-/// How far around the onset of contact, in voxels (the smallest spacing).
+/// Range around the onset of contact, in voxels (the smallest spacing).
 inline constexpr double kOnsetInside = 0.75;
 inline constexpr double kOnsetOutside = 0.25;
 

@@ -19,7 +19,7 @@ class MotionEngine {
 
     /// The one before ends first: two may be too much.
     void dropVolume() noexcept { scene_.reset(); }
-    /// What meshes are tested against from now on. Nothing of either need outlive the call.
+    /// Sets the volume for the following queries. The arguments need not outlive the call.
     [[nodiscard]] Result<void> setVolume(const VolumeView& volume, const TransferFunctionDesc& function);
     /// The segments between the poses of a mesh, by its number. Cancelled after an interrupt.
     [[nodiscard]] Result<MotionAnswer> check(std::uint32_t mesh, std::span<const Mat4> poses, double threshold);

@@ -12,8 +12,8 @@
 
 namespace voxtact::app {
 
-/// What `voxtact motion` writes: rows on standard output as they come, a file when all is done and well. Thread-safety:
-/// none; one thread at a time.
+/// Output of `voxtact motion`: rows on standard output immediately, a file after success. Thread-safety: none; one
+/// thread at a time.
 class MotionOutput {
   public:
     /// Opens the file. Both must outlive it.

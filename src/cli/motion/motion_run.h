@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-/// What the parts of `voxtact motion` share.
+/// Common parts of `voxtact motion`.
 namespace voxtact::app {
 
 struct MotionOptions {
@@ -49,22 +49,22 @@ class SegmentChecker {
     SegmentChecker(const MotionOptions& options, const MotionInputs& inputs, MotionEngine& engine)
         : options_(options), inputs_(inputs), engine_(engine) {}
 
-    /// Reads a volume with its transfer function; what is checked from then on is about it.
+    /// Reads a volume with its transfer function, for the following queries.
     [[nodiscard]] Result<void> setVolume(std::uint32_t number);
 
-    /// The rows of the segments between poses of which the first has the number `firstPose`, some at a time; fewer
-    /// where an interrupt comes, which ends what is under way, too. Refuses poses between which there is no rigid
-    /// motion before any row. Ends where `visit` fails.
+    /// Visits the rows of the segments between poses, in batches; `firstPose` is the index of the first pose. An
+    /// interrupt ends it early, also during a segment. Refuses poses without a rigid motion between them before any
+    /// row. Ends if `visit` fails.
     [[nodiscard]] Result<void> check(std::uint32_t mesh, std::span<const Mat4> poses, std::uint64_t firstPose,
                                      const std::function<Result<void>(std::span<const MotionRow>)>& visit);
-    /// That it took so far.
+    /// Returns the duration so far.
     [[nodiscard]] double milliseconds() const noexcept { return milliseconds_; }
 
   private:
     /// More segments than are checked before their rows are written.
     static constexpr std::uint32_t kMostAtOnce = 256;
 
-    /// Whether each segment is half a turn.
+    /// Returns for each segment whether it is half a turn.
     [[nodiscard]] Result<std::vector<bool>> checkRigid(std::span<const Mat4> poses, std::uint64_t firstPose) const;
 
     const MotionOptions& options_;

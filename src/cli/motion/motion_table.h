@@ -21,7 +21,7 @@ struct MotionRow {
     bool halfTurn = false; ///< within rounding, so that this alone decides which way round it goes
 };
 
-/// What the rows are about.
+/// Inputs of the rows.
 struct MotionTable {
     const std::vector<std::string>& meshes; ///< as they were given
     const std::vector<std::string>& volumes;
@@ -30,7 +30,7 @@ struct MotionTable {
     std::span<const MotionRow> rows;
     const io::NamedCells& facts; ///< JSON members before the rows
 
-    /// It refers to all of these.
+    /// Returns the table, which references all of these.
     [[nodiscard]] io::Table table() const;
 };
 

@@ -10,8 +10,8 @@
 
 namespace voxtact::app {
 
-/// The folder for what is worth keeping from run to run. Everything in it can be made again, so that nothing that goes
-/// wrong with it is an error: what cannot be read is not there, and what cannot be written is not kept.
+/// Folder of data that is kept between runs. All contents can be recreated, so failures are not errors: unreadable data
+/// count as missing, unwritable data are dropped.
 class CacheFolder {
   public:
     /// A cache that is off.
@@ -29,7 +29,7 @@ class CacheFolder {
     std::filesystem::path path_;
 };
 
-/// What tells a device, its driver and this program from others, as part of a file's name.
+/// Returns the part of a file name that identifies a device, its driver and this program.
 [[nodiscard]] std::string cacheKey(const device::PhysicalDevice& device);
 
 } // namespace voxtact::app

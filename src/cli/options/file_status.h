@@ -14,7 +14,7 @@
 
 namespace voxtact::app {
 
-/// What a file is, by whatever name.
+/// Identity of a file, independent of its name.
 struct FileIdentity {
     dev_t device = 0;
     ino_t number = 0;
@@ -22,17 +22,17 @@ struct FileIdentity {
     auto operator<=>(const FileIdentity&) const = default;
 };
 
-/// "cannot look at 'PATH': REASON"
+/// Returns "cannot look at 'PATH': REASON".
 [[nodiscard]] inline Error cannotLookAt(const std::filesystem::path& path, const std::error_code& why) {
     return {ErrorCode::File, 0, "cannot look at '" + path.string() + "': " + why.message()};
 }
 
-/// What is made of a path that this process may not look at. IsNothing is for names that are only guessed: what may not
-/// be examined is not read either.
+/// Treatment of a path without permission. IsNothing is for guessed names: a file that cannot be examined is not read
+/// either.
 enum class NoAccess { IsAnError, IsNothing };
 
-/// What is there, behind links. Nothing where nothing is; an error where that cannot be told: who took it for nothing
-/// might leave out, or overwrite, what is read.
+/// Returns the status behind links; empty if nothing is there; an error if unknown: treating an unknown path as missing
+/// might skip or overwrite an input.
 [[nodiscard]] inline Result<std::optional<struct stat>> statusOf(const std::filesystem::path& path,
                                                                  NoAccess noAccess = NoAccess::IsAnError) {
     struct stat status {};
@@ -46,7 +46,7 @@ enum class NoAccess { IsAnError, IsNothing };
     return cannotLookAt(path, {why, std::generic_category()});
 }
 
-/// Nothing where there is no such file.
+/// Empty if there is no such file.
 [[nodiscard]] inline Result<std::optional<FileIdentity>> identityOf(const std::filesystem::path& path,
                                                                     NoAccess noAccess = NoAccess::IsAnError) {
     const Result<std::optional<struct stat>> status = statusOf(path, noAccess);
@@ -54,7 +54,7 @@ enum class NoAccess { IsAnError, IsNothing };
     return *status ? std::optional(FileIdentity{(*status)->st_dev, (*status)->st_ino}) : std::optional<FileIdentity>();
 }
 
-/// Whether there is an ordinary file.
+/// Returns true for a regular file.
 [[nodiscard]] inline Result<bool> isFile(const std::filesystem::path& path, NoAccess noAccess = NoAccess::IsAnError) {
     const Result<std::optional<struct stat>> status = statusOf(path, noAccess);
     VOXTACT_TRY(status);

@@ -10,7 +10,7 @@ namespace voxtact::app {
 namespace {
 
 constexpr std::size_t kLineColumns = 80;
-/// Where the texts of options begin.
+/// Column of the options' texts.
 constexpr std::size_t kTextColumn = 27;
 
 } // namespace

@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::string_view kBuiltin = "builtin:";
 
-/// What a file holds is no fault of the arguments.
+/// An error in a file's contents is no invalid argument.
 Error fileFault(Error error) {
     if (error.code == ErrorCode::InvalidArgument) {
         error.code = ErrorCode::Format;
@@ -32,7 +32,7 @@ Error fileFault(Error error) {
     return error;
 }
 
-/// Of a builtin, whose name is an argument, or of a file.
+/// Error of a builtin, whose name is an argument, or of a file.
 Error sourceFault(const char* option, const std::string& source, const Error& error) {
     const bool isName = source.starts_with(kBuiltin) && error.code != ErrorCode::OutOfMemory;
     return isName ? badArgument(std::string(option) + " " + source + ": " + error.text) : fileFault(error);
@@ -45,7 +45,7 @@ void printNotes(const std::string& source, const std::vector<std::string>& notes
     }
 }
 
-/// Which image a source means: of a folder a series, of a file a frame.
+/// Returns the image that a source selects: a series of a folder, a frame of a file.
 Result<io::VolumeReadOptions> imageChoice(const std::string& source, const NamedImage& image) {
     io::VolumeReadOptions options;
     std::error_code ignored;

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-/// What the options name, read into host memory. What a reader has to say goes to standard error as notes.
+/// Reads the inputs of the options into host memory. Notes of the readers go to standard error.
 namespace voxtact::app {
 
 /// A path, of a file or folder with several images one as namedImage() says, or `builtin:NAME`.
@@ -26,7 +26,7 @@ namespace voxtact::app {
 [[nodiscard]] ValueRange tableDomain(const TransferFunctionOptions& options, ScalarType type, const ValueRange& data);
 /// Entries of the table of projections that are not certified.
 [[nodiscard]] std::uint32_t tableSizeFor(const TransferFunctionOptions& options, ScalarType type);
-/// The same for the volume of a source; says so where some values lie outside of it.
+/// Like tableDomain(), for the volume of a source; notes values outside the domain.
 [[nodiscard]] ValueRange usedDomain(const TransferFunctionOptions& options, ScalarType type, const ValueRange& data,
                                     const std::string& source);
 /// Opacity from 0 to 1 over the domain.
@@ -39,14 +39,13 @@ using GridSource = std::function<Result<Grid>()>;
 
 /// A label map, named as a volume is. No `builtin:`.
 [[nodiscard]] Result<io::LabelFile> loadLabels(const std::filesystem::path& path, const GridSource& grid);
-/// Where the names of its labels are: `names`; where that is empty, the file beside it that is called like it without
-/// .gz, and with .txt.
+/// Returns the path of the label names: `names`, or if empty the label map's path without .gz, with .txt.
 [[nodiscard]] std::filesystem::path labelNamesPath(const std::filesystem::path& names,
                                                    const std::filesystem::path& labels);
 /// The names of its labels from there; none where `names` is empty and that file is not there or cannot be read.
 [[nodiscard]] Result<std::map<std::int32_t, std::string>> loadLabelNames(const std::filesystem::path& names,
                                                                          const std::filesystem::path& labels);
-/// Both; the names that the label map states itself if there is no file of names.
+/// A label map and its names; those of the label map if there is no file of names.
 struct NamedLabels {
     LabelData labels;
     std::map<std::int32_t, std::string> names;

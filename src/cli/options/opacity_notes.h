@@ -16,7 +16,7 @@ namespace voxtact::app {
                                                     double threshold, const std::string& source, bool byTable,
                                                     std::string_view who = "the transfer function");
 
-/// What is to be said of a preset in Hounsfield units and values that are others; empty: nothing.
+/// Returns the note for a preset in Hounsfield units on other values; otherwise empty.
 [[nodiscard]] std::string presetNote(const std::string& preset, const ValueRange& data);
 
 /// Says what opacityNotes() has on standard error, and each note once, however many volumes it is true of. One thread

@@ -7,7 +7,7 @@
 
 namespace voxtact::app {
 
-/// What a window needs of instance and device in addition to what everybody does.
+/// Additional extensions of instance and device for a window.
 struct SessionExtensions {
     std::vector<const char*> instance{};
     std::vector<const char*> device{};
@@ -15,7 +15,7 @@ struct SessionExtensions {
 
 /// On the device that the user chose. The context's warnings are printed as notes.
 [[nodiscard]] Result<device::Session> openSession(const DeviceChoice& choice, const SessionExtensions& extensions = {});
-/// Where the user wants a device's pipelines to be kept.
+/// Returns the user's location of a device's pipeline cache.
 [[nodiscard]] device::PipelineStore pipelineStore(const DeviceChoice& choice, const device::PhysicalDevice& device);
 
 /// Once everything made on the instance has ended: exit status 3 with the first message, if there was any.

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of the command that runs.
+/// Set for the running command.
 bool keepsExisting = false;
 bool hasFiles = false;
 
@@ -47,7 +47,7 @@ std::string_view trimmed(std::string_view text) {
                                            : text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
 }
 
-/// Whatever in a line of a header may be the name of a file: all of it, what is behind `=` or `:`, what is in quotes.
+/// Adds possible file names in a line of a header: the whole line, the part after `=` or `:`, and quoted parts.
 void addNames(std::string_view line, std::vector<std::string>& names) {
     names.emplace_back(trimmed(line));
     if (const std::size_t sign = line.find_first_of("=:"); sign != std::string_view::npos) {
@@ -79,7 +79,7 @@ std::string loweredEnding(const fs::path& path) {
     return ending;
 }
 
-/// Whether the existing file `output` is read together with the file `input`.
+/// Returns true if the existing file `output` is read together with the file `input`.
 Result<bool> isNamedBy(const FileIdentity& output, const fs::path& input) {
     const Result<std::vector<fs::path>> others = filesNamedIn(input);
     VOXTACT_TRY(others);
@@ -93,7 +93,7 @@ Result<bool> isNamedBy(const FileIdentity& output, const fs::path& input) {
     return false;
 }
 
-/// Whether `output` is a file of the folder `input`, or would become one.
+/// Returns true if `output` is, or would become, a file of the folder `input`.
 Result<bool> isMember(const fs::path& output, const fs::path& input) {
     const fs::path folder = output.has_parent_path() ? output.parent_path() : fs::path(".");
     const Result<std::optional<FileIdentity>> identity = identityOf(output);
@@ -148,7 +148,7 @@ Result<void> checkApart(const NamedPath& output, const NamedPath& input) {
                   : Result<void>();
 }
 
-/// What is written while it is found would be mixed.
+/// Output of several writers to standard output would be mixed.
 Result<void> checkOneOnStandardOutput(const std::vector<NamedPath>& outputs) {
     const NamedPath* first = nullptr;
     for (const NamedPath& output : outputs) {

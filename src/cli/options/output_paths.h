@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-/// What a command writes must be nothing that it reads: found out before any work is done.
+/// Checks before any work that a command's outputs are none of its inputs.
 namespace voxtact::app {
 
 /// A path, and the option that names it: "--output".
@@ -24,7 +24,7 @@ struct NamedImage {
 };
 [[nodiscard]] NamedImage namedImage(const std::string& source);
 
-/// Adds a file or folder that is read, without what is behind a '#'; builtins, standard input and empty paths are none.
+/// Adds a file or folder that is read, without the part after '#'; skips builtins, standard input and empty paths.
 void addInput(std::vector<NamedPath>& inputs, const char* option, const std::filesystem::path& path);
 /// The files and folders that the options read.
 [[nodiscard]] std::vector<NamedPath> inputPaths(const std::vector<std::string>& volumes, const MeshOptions& meshes);
@@ -40,9 +40,9 @@ void addInput(std::vector<NamedPath>& inputs, const char* option, const std::fil
 /// whatever name: a link, another spelling, a file of a DICOM folder, the file of voxels or buffers that a header
 /// names; and, after keepExisting(true), one that exists. Empty paths are not examined.
 [[nodiscard]] Result<void> checkOutputs(const std::vector<NamedPath>& outputs, const std::vector<NamedPath>& inputs);
-/// Whether checkOutputs() refuses files that exist, from now on: --force is not given.
+/// Sets whether checkOutputs() refuses existing files: without --force.
 void keepExisting(bool keep) noexcept;
-/// Whether one of the outputs that checkOutputs() has passed is a file.
+/// Returns true if a path that checkOutputs() accepted is a file.
 [[nodiscard]] bool writesFiles() noexcept;
 
 } // namespace voxtact::app

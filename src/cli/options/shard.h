@@ -20,9 +20,9 @@ struct Shard {
     std::uint32_t count = 1;
 
     [[nodiscard]] bool isPart() const noexcept { return count > 1; }
-    /// Whether its CSV has the line with the columns.
+    /// Returns true if its CSV has the header line.
     [[nodiscard]] bool hasHead() const noexcept { return index == 1; }
-    /// Of `rows`, the number of its first one and of the first one behind it.
+    /// Returns the first row of the part, and the end of its rows.
     [[nodiscard]] std::pair<std::uint64_t, std::uint64_t> range(std::uint64_t rows) const noexcept;
 };
 

@@ -17,7 +17,7 @@ namespace voxtact::app {
 
 namespace {
 
-/// All of `text` as a number; nothing when it is not one.
+/// Parses all of `text` as a number; empty if it is none.
 template <class Number> std::optional<Number> parseNumber(std::string_view text) {
     Number number{};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -43,7 +43,7 @@ std::string join(const std::vector<std::string>& names) {
     return text;
 }
 
-/// Refuses what is not in `available`.
+/// Refuses a name that is not in `available`.
 void requireName(const char* option, const std::string& name, const std::vector<std::string>& available) {
     if (std::find(available.begin(), available.end(), name) == available.end()) {
         refuse(option, quote(name) + " is not known; there are: " + join(available));
@@ -165,7 +165,7 @@ void addSeed(CLI::App& parser, std::uint64_t& seed) {
         }
         seed = *number;
     };
-    addParsed(parser, "--seed", parse, "of the random poses, from 0 to 2^64-1", "S", std::to_string(seed).c_str());
+    addParsed(parser, "--seed", parse, "seed of random poses, 0 to 2^64-1", "S", std::to_string(seed).c_str());
 }
 
 void addPath(CLI::App& parser, const char* option, std::filesystem::path& path, const std::string& help) {
@@ -213,9 +213,8 @@ std::optional<std::string> setIso(const std::string& text, TransferFunctionOptio
 } // namespace
 
 void addTransferFunctionOptions(CLI::App& parser, TransferFunctionOptions& options) {
-    addPath(parser, "--transfer-function", options.path,
-            "lines 'value opacity', or JSON; default: a ramp over the image's values");
-    parser.add_option("--opacity", options.opacity, "the same as \"value:opacity,...\", linear in between")
+    addPath(parser, "--transfer-function", options.path, "lines 'value opacity', or JSON; default: a ramp");
+    parser.add_option("--opacity", options.opacity, "\"value:opacity,...\", linear between these points")
         ->type_name("LIST")
         ->excludes("--transfer-function");
     addText(
@@ -332,7 +331,7 @@ void addSpace(CLI::App& parser, const char* option, std::string& space, const st
 }
 
 void addPosesOptions(CLI::App& parser, ViewOptions& options) {
-    addPath(parser, "--poses", options.poses, "4x4 matrices, 16 numbers a line; -: standard input");
+    addPath(parser, "--poses", options.poses, "4x4 matrices, 16 numbers per line; -: standard input");
     addSpace(parser, "--poses-space", options.posesSpace, "space of the poses: lps or ras");
     setRare(parser, "--poses-space");
 }
@@ -346,7 +345,7 @@ void addCameraOptions(CLI::App& parser, ViewOptions& options) {
             options.size = size;
             options.sizeGiven = true;
         },
-        "viewport in pixels");
+        "viewport, pixels");
 }
 
 void addMethodOptions(CLI::App& parser, MethodOptions& options) {
@@ -393,7 +392,7 @@ void addMethodOptions(CLI::App& parser, MethodOptions& options) {
 }
 
 void addDeviceOptions(CLI::App& parser, DeviceChoice& options) {
-    parser.add_option("--device", options.wanted, "Vulkan device: number or part of its name")
+    parser.add_option("--device", options.wanted, "Vulkan device: index or part of its name")
         ->type_name("INDEX|NAME")
         ->check(refuseEmpty);
     parser.add_flag("--validate", options.validate,
@@ -410,7 +409,7 @@ void addDeviceOptions(CLI::App& parser, DeviceChoice& options) {
 void addThreadsOption(CLI::App& parser, std::uint32_t& threads) {
     addWholeNumber(
         parser, "--threads", [&threads](std::uint32_t number) { threads = number; }, {.least = 0, .most = kMaxThreads},
-        "threads of the host engine; 0: all processors", 0);
+        "threads of the host engine; 0: all", 0);
 }
 
 void addLabelOptions(CLI::App& parser, LabelOptions& options) {

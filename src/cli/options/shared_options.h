@@ -86,7 +86,7 @@ struct WholeRange {
 /// A whole number, as an option; with a default, or without.
 void addWholeNumber(CLI::App& parser, const char* option, const std::function<void(std::uint32_t)>& store,
                     const WholeRange& range, const std::string& help, std::optional<std::uint32_t> standard);
-/// The same into a variable that holds the default.
+/// Adds an option that stores to a variable; its value is the default.
 void addWholeNumber(CLI::App& parser, const char* option, std::uint32_t& value, std::uint32_t least,
                     const std::string& help);
 /// --seed: any whole number that has 64 bits.
@@ -112,10 +112,10 @@ void addTableOptions(CLI::App& parser, TransferFunctionOptions& options);
 void addDegrees(CLI::App& parser, const char* option, std::optional<double>& value, const std::string& help);
 /// A colour RRGGBB, as an option; each channel then from 0 to 1.
 void addColour(CLI::App& parser, const char* option, std::array<double, 3>& colour, const std::string& help);
-/// One of `names`, as an option.
+/// Adds an option for one of `names`.
 void addName(CLI::App& parser, const char* option, std::string& name, const std::vector<const char*>& names,
              const std::string& help);
-/// Takes the text of an option, and says what is wrong with one that it cannot use.
+/// Receives the text of an option; returns the error of an unusable text.
 using UseText = std::function<std::optional<std::string>(const std::string&)>;
 /// An option that is given once.
 void addText(CLI::App& parser, const char* option, const UseText& use, const std::string& help, const char* type);
@@ -123,7 +123,7 @@ void addText(CLI::App& parser, const char* option, const UseText& use, const std
 void addTexts(CLI::App& parser, const char* option, const UseText& use, const std::string& help, const char* type);
 /// A colour RRGGBB, each channel then from 0 to 1; nothing where the text is none.
 [[nodiscard]] std::optional<std::array<double, 3>> parseColour(const std::string& text);
-/// All of a text as a finite number; nothing where it is none.
+/// Parses all of a text as a finite number; empty if it is none.
 [[nodiscard]] std::optional<double> parseFinite(std::string_view text);
 /// LO:HI, two finite numbers with LO below HI.
 [[nodiscard]] std::optional<ValueRange> parseRange(std::string_view text);

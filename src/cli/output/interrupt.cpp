@@ -32,7 +32,7 @@ InterruptGuard::InterruptGuard() noexcept {
     flag = false;
     for (const Signal& signal : kSignals) {
         struct sigaction old {};
-        // What the caller had ignored (nohup, a job in the background) stays ignored.
+        // Signals that the caller ignores (nohup, a background job) stay ignored.
         if (::sigaction(signal.number, nullptr, &old) == 0 && old.sa_handler == SIG_DFL) {
             struct sigaction action {};
             action.sa_handler = noteSignal;

@@ -17,12 +17,12 @@ class InterruptGuard {
     ~InterruptGuard();
 };
 
-/// Whether a signal came; from any thread.
+/// Returns true after a signal; from any thread.
 [[nodiscard]] bool interrupted() noexcept;
-/// The same, for calls that take a flag.
+/// Returns the flag of interrupted(), for calls that take one.
 [[nodiscard]] const std::atomic<bool>& interruptFlag() noexcept;
 
-/// Exit status 128 and the signal's number, as a shell has it, and "interrupted by SIGINT: " with what became of it.
+/// Returns exit status 128 plus the signal's number, like a shell, and "interrupted by SIGINT: " with the consequence.
 [[nodiscard]] Outcome interruptOutcome(const std::string& what);
 
 } // namespace voxtact::app

@@ -12,7 +12,7 @@ inline constexpr int kExitFailed = 1;    ///< at run time: no device, a file tha
 inline constexpr int kExitArguments = 2; ///< unusable arguments
 inline constexpr int kExitVerify = 3;    ///< a verification that was asked for has failed
 
-/// How a command ends: its exit status and, unless that is 0, the line that says why.
+/// Result of a command: its exit status and, unless that is 0, the error line.
 struct Outcome {
     Outcome() = default;
     Outcome(int exitStatus, std::string reason) : status(exitStatus), text(std::move(reason)) {}
@@ -23,7 +23,7 @@ struct Outcome {
     std::string text;
 };
 
-/// The same error, blamed on an argument: exit status 2.
+/// Creates an error about an argument: exit status 2.
 [[nodiscard]] inline Error badArgument(std::string text) {
     return refuse(std::move(text));
 }

@@ -122,7 +122,7 @@ Result<void> deliverAll(std::vector<Delivery> deliveries) {
         VOXTACT_TRY(file->close());
         files.push_back(std::move(*file));
     }
-    // What is on standard output cannot be taken back, and may fail.
+    // Standard output cannot be undone, and may fail.
     if (!text.empty()) {
         VOXTACT_TRY(writeStandardOutput(text));
     }

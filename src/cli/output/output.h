@@ -13,7 +13,7 @@
 
 namespace voxtact::app {
 
-/// Where a command's output goes.
+/// Destination of a command's output.
 struct OutputOptions {
     std::filesystem::path path; ///< empty: standard output
     std::string formatName;     ///< empty: text on a terminal, else CSV
@@ -21,7 +21,7 @@ struct OutputOptions {
     [[nodiscard]] io::Format format() const;
 };
 
-/// Whether `path` can be written, found out without writing: no work is done for nothing. Fine when it is empty.
+/// Checks that `path` can be written, without writing, before any work. An empty path is valid.
 [[nodiscard]] Result<void> checkOutput(const std::filesystem::path& path);
 
 /// Refuses two of the named paths ("--output", path) that are one file; empty ones, devices and pipes are not
@@ -33,7 +33,7 @@ struct OutputOptions {
 [[nodiscard]] Result<void> deliver(const std::filesystem::path& path,
                                    const std::function<Result<void>(std::ostream&)>& write);
 
-/// Where something goes, and what writes it.
+/// An output path and its writer.
 struct Delivery {
     std::filesystem::path path;
     std::function<Result<void>(std::ostream&)> write;

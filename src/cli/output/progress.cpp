@@ -83,7 +83,7 @@ void Progress::drawBar(std::uint64_t done, const std::string& rest) {
         line += "[" + std::string(filled, '#') + std::string(kWidth - filled, '.') + "] ";
     }
     line += rest;
-    // What was longer before is wiped.
+    // Erases the rest of a longer line.
     const std::size_t length = line.size();
     line.append(lineLength_ > length ? lineLength_ - length : 0, ' ');
     lineLength_ = std::max(lineLength_, length);

@@ -7,8 +7,8 @@
 
 namespace voxtact::app {
 
-/// How far long work is, and about how long the rest will take, on standard error: on a terminal a bar, from half a
-/// second on, that is wiped when it goes; elsewhere a line per minute.
+/// Shows progress and remaining time on standard error: on a terminal a bar, after half a second, erased at the end;
+/// elsewhere one line per minute.
 class Progress {
   public:
     /// `wanted` false: does nothing. `total` 0: not known.
@@ -18,7 +18,7 @@ class Progress {
     ~Progress();
 
     void update(std::uint64_t done);
-    /// What is being done from now on; said with the next update.
+    /// Sets the current activity; shown with the next update.
     void doing(const std::string& what) { doing_ = what + ", "; }
 
   private:
@@ -40,7 +40,7 @@ class Progress {
 [[nodiscard]] std::string roughly(double seconds);
 /// "1,234,567"
 [[nodiscard]] std::string withCommas(std::uint64_t number);
-/// ", about 3 min left"; empty where nothing can be said yet.
+/// Returns ", about 3 min left"; empty if unknown.
 [[nodiscard]] std::string timeLeft(std::uint64_t done, std::uint64_t total, double secondsSoFar);
 
 } // namespace voxtact::app

@@ -19,10 +19,10 @@ class ResultFile {
     ResultFile& operator=(ResultFile&&) noexcept;
     ~ResultFile();
 
-    /// As of io::OutputFile.
+    /// Like io::OutputFile::stream().
     [[nodiscard]] std::ostream& stream() noexcept;
     [[nodiscard]] Result<void> close();
-    /// For OutputFile::commitAll(), after close(); null: standard output.
+    /// Returns the file for OutputFile::commitAll(), after close(); null: standard output.
     [[nodiscard]] io::OutputFile* file() noexcept { return file_ ? &*file_ : nullptr; }
 
   private:
@@ -31,7 +31,7 @@ class ResultFile {
     ResultFile() noexcept;
 
     std::optional<io::OutputFile> file_;
-    std::unique_ptr<Standard> standard_; ///< instead of it
+    std::unique_ptr<Standard> standard_; ///< standard output, instead of a file
 };
 
 } // namespace voxtact::app

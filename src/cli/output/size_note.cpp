@@ -9,7 +9,7 @@ namespace voxtact::app {
 
 namespace {
 
-/// With three digits that count: "0.15".
+/// Rounds to three significant digits: "0.15".
 std::string rounded(double length) {
     char text[32];
     std::snprintf(text, sizeof text, "%.3g", length);
@@ -26,7 +26,7 @@ Mat4 withoutPlace(Mat4 pose) {
     return pose;
 }
 
-/// Of a mesh so long against a volume so long, mm.
+/// Returns the note for the sizes of a mesh and a volume, mm.
 std::string noteOf(double mesh, double volume) {
     // A thousand, give or take what instruments and anatomies differ by.
     constexpr double kStriking = 250;

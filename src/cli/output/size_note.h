@@ -5,12 +5,12 @@
 
 #include <string>
 
-/// What strikes in the size of a mesh: most often its unit is another one than was said.
+/// Notes on implausible sizes of meshes, usually caused by a wrong unit.
 namespace voxtact::app {
 
-/// What a mesh in a box of object space is against a volume, under a pose; empty where nothing strikes.
+/// Returns the note on the size of a mesh at a pose, compared with a volume; empty if plausible.
 [[nodiscard]] std::string sizeNote(const Box& object, const Mat4& world_from_object, const Grid& volume);
-/// What a mesh of this size is by itself, in mm.
+/// Returns the note on the size of a mesh alone, in mm.
 [[nodiscard]] std::string unitHint(const Box& bounds);
 
 } // namespace voxtact::app

@@ -35,7 +35,7 @@ std::atomic<bool> isClosed = false;
 std::atomic<bool> isSilent = false;
 
 void printLine(std::string_view text) {
-    // Nothing is left to tell when standard error itself fails.
+    // There is no way to report a failure of standard error.
     static_cast<void>(writeAll(STDERR_FILENO, messageLine(oneLine(text)) + "\n"));
 }
 

@@ -17,7 +17,7 @@ void claimStandardStreams() noexcept;
 
 /// Writes all of `text`, or fails with the reason.
 [[nodiscard]] Result<void> writeStandardOutput(std::string_view text);
-/// Whether that has failed because nobody reads the pipe any more, as behind `| head`.
+/// Returns true if output failed because the pipe was closed, as by `| head`.
 [[nodiscard]] bool standardOutputIsClosed() noexcept;
 
 /// Prints "voxtact: note: text" on standard error, as one line, unless notes are silenced.
@@ -26,12 +26,11 @@ void printNote(std::string_view text);
 void printSummary(std::string_view text);
 /// Makes printNote() and printNoteOnce() do nothing.
 void silenceNotes() noexcept;
-/// The same of a text that was not printed by this before: what is true of a file stays true when it is read again. Any
-/// thread.
+/// Like printNote(), but prints a text only once: reading a file again repeats its notes. Any thread.
 void printNoteOnce(const std::string& text);
 /// "voxtact touch: text"; `command` may be empty.
 void printError(std::string_view command, std::string_view text);
-/// The same of a lack of memory, without any.
+/// Reports that memory ran out, without allocating.
 void printOutOfMemory() noexcept;
 
 /// `text` with runs of white space and control characters as one space: what fits in a one-line message.

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view kPlace = "{target}";
 
-/// Letters, digits and what is beyond ASCII stay; nothing of it leads to another folder, or is hidden.
+/// Keeps letters, digits and non-ASCII characters; the result cannot name another folder or a hidden file.
 std::string fileName(const std::string& target) {
     constexpr std::string_view kKept = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
     std::string name = target;

@@ -13,7 +13,7 @@ namespace voxtact::app {
 
 namespace {
 
-/// Where the longest whole character sequence of at most `most` bytes ends; `text` is valid.
+/// Returns the end of the longest valid prefix of at most `most` bytes; `text` is valid.
 std::size_t cutBefore(std::string_view text, std::size_t most) {
     std::size_t end = most;
     while (end > 0 && (static_cast<std::uint8_t>(text[end]) & 0xC0U) == 0x80U) {
@@ -28,7 +28,7 @@ std::string shortened(std::string_view text) {
     constexpr std::size_t kMost = 120;
     constexpr std::size_t kBegin = 70;
     constexpr std::size_t kEnd = 40;
-    // What is cut away need not be escaped: an argument may have a megabyte.
+    // Shortens before escaping: an argument may have a megabyte.
     if (text.size() > 8 * kMost) {
         const std::string begin = escaped(text.substr(0, kMost));
         const std::string end = escaped(text.substr(text.size() - kMost));

@@ -16,7 +16,7 @@ namespace {
 /// On the device and on the host.
 constexpr std::uint64_t kBytesOfContact = 2 * sizeof(ContactResult);
 
-/// Of volumes that are kept for a later job: less than any device has.
+/// Maximum bytes of volumes kept for later jobs: below the memory of all devices.
 constexpr std::uint64_t kMaxVolumeBytes = std::uint64_t{512} << 20U;
 
 /// A size that the user chose and the device has not is an unusable argument.
@@ -44,7 +44,7 @@ struct DeviceVolume {
     std::uint64_t bytes = 0;
 };
 
-/// What is uploaded once.
+/// Objects that are uploaded once.
 struct DeviceScene {
     std::vector<Mesh> meshes;
     std::optional<LabelMap> labels;
@@ -139,8 +139,7 @@ DetectorDesc descOf(const PairOptions& options, CountingMethod method) {
     return desc;
 }
 
-/// Submissions so large, and so many of them, that the answers in addition to the counts keep within what they may
-/// take.
+/// Limits size and number of submissions, so that additional outputs stay within their memory.
 device::PipelineDesc pipelineDescOf(const PairOptions& options, const PairInputs& inputs) {
     const Outputs outputs = options.extra.outputs();
     const std::uint64_t contactBytes = outputs.contacts ? options.extra.contactRoom() * kBytesOfContact : 0;

@@ -26,7 +26,7 @@ double dot(const Vec3& a, const Vec3& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Whether a ray from there in a direction along which no edge lies goes through an odd number of triangles.
+/// Returns true if a ray from the point, parallel to no edge, crosses an odd number of triangles.
 bool isInside(std::span<const std::array<Vec3, 3>> triangles, const Vec3& point) {
     constexpr Vec3 kWay{0.5377, 0.3182, 0.7807};
     bool inside = false;

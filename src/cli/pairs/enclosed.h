@@ -8,18 +8,18 @@
 #include <span>
 #include <vector>
 
-/// What a closed mesh encloses, which its surface does not touch.
+/// Finds opaque regions that a closed mesh encloses without touching them.
 namespace voxtact::app {
 
 /// Centres of opaque voxels, world mm. Null: none are known.
 using OpaqueVoxels = std::shared_ptr<const std::vector<Vec3>>;
 
-/// Of a volume, under opacity that is linear between `points`: some, from all of its parts.
+/// Returns some opaque voxels from all parts of a volume, with opacity linear between `points`.
 [[nodiscard]] OpaqueVoxels someOpaqueVoxels(const VolumeView& volume, std::span<const ControlPoint> points,
                                             double threshold);
 
-/// One of the voxels that is inside of a mesh at a pose; nothing where the mesh is open, or none of those that are
-/// tried is. By rays, without bounds on rounding: for a note, not for an answer.
+/// Returns one of the voxels that is inside a mesh at a pose; empty if the mesh is open, or no tested voxel is inside.
+/// Uses rays without rounding bounds: for a note, not for an answer.
 [[nodiscard]] std::optional<Vec3> enclosedVoxel(const MeshView& mesh, const Mat4& world_from_object,
                                                 const std::vector<Vec3>& voxels);
 

@@ -73,7 +73,7 @@ void keepContacts(const BatchAnswer& answer, std::span<const std::uint32_t> batc
         static_cast<void>(output.keepContact(row, contact));
     }
     output.countContacts(answer.contactsFound);
-    // Each survivor is a contact: a list that was cut does not say how many a pair has, its count does.
+    // Each passing fragment is a contact: of a truncated list, the pair's count has the number.
     if (answer.contactsFound > answer.contacts.size()) {
         for (const std::uint32_t number : batch) {
             Row& row = rows[number];

@@ -26,7 +26,7 @@ class PairOutput;
 
 constexpr std::uint32_t kDefaultMaxContacts = 1U << 20U;
 
-/// What is asked for in addition to the counts.
+/// Options of additional outputs.
 struct ExtraOptions {
     std::filesystem::path triangles; ///< files to write; empty: not asked for
     std::filesystem::path contacts;
@@ -40,7 +40,7 @@ struct ExtraOptions {
 
 void addExtraOptions(CLI::App& parser, ExtraOptions& options);
 
-/// What a row keeps of them.
+/// Additional outputs of a row.
 struct ExtraAnswers;
 /// Null: nothing was found.
 using KeptExtra = std::shared_ptr<ExtraAnswers>;
@@ -56,11 +56,11 @@ struct ExtraColumn {
     std::function<io::Cell(const KeptExtra&)> cell;
 };
 
-/// The columns of what is asked for. `names` of labels must outlive them.
+/// Returns the columns of the requested outputs. `names` of labels must outlive them.
 [[nodiscard]] std::vector<ExtraColumn> extraColumns(const Outputs& outputs,
                                                     const std::map<std::int32_t, std::string>& names);
 
-/// To so many parts of one, so that the shortest text for it is short.
+/// Rounds to a fraction of 1, for a short text.
 [[nodiscard]] double rounded(double value, double parts);
 
 } // namespace voxtact::app

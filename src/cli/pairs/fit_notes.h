@@ -7,19 +7,18 @@
 
 namespace voxtact::app {
 
-/// What is to be said of a mesh that is a thousand times too small or too large for a volume, or that comes near it at
-/// no pose: most often its unit, or its space, is another one than was said. And of one that touches nothing and
-/// encloses something opaque.
+/// Notes on a mesh that is a thousand times too small or too large for a volume, or far from it at all poses, usually
+/// because of a wrong unit or space; and on a mesh that encloses an opaque region without touching it.
 class FitNotes {
   public:
     /// Both must outlive it.
     FitNotes(const PairOptions& options, const PairInputs& inputs);
 
-    /// Of each job: 0 where no pose brings the mesh's box near the volume; selectPoses() counts.
+    /// Per job: 0 if no pose brings the mesh's box near the volume; selectPoses() counts.
     [[nodiscard]] std::vector<std::uint64_t>& near() noexcept { return near_; }
-    /// Counts the poses, and looks at the size of the mesh at the first pose of each job.
+    /// Counts the poses, and checks the size of the mesh at the first pose of each job.
     void look(const Window& window, const Grid& grid, const OpaqueVoxels& opaque);
-    /// What touches, or is within a distance that was asked for, is near wherever the box is.
+    /// A touch, or a distance within the requested one, counts as near, whatever the box.
     void lookAtAnswers(std::span<const Row> rows);
     /// Once all windows have been examined.
     void addTo(std::vector<std::string>& notes) const;

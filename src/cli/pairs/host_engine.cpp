@@ -11,7 +11,7 @@ namespace voxtact::app {
 
 namespace {
 
-/// Of volumes that are kept for a later job.
+/// Maximum bytes of volumes kept for later jobs.
 constexpr std::uint64_t kMaxHostVolumeBytes = std::uint64_t{2} << 30U;
 
 struct HostVolume {
@@ -48,7 +48,7 @@ class HostPairs : public PairEngine {
 
   private:
     [[nodiscard]] Result<HostVolume> make(std::uint32_t volume) const;
-    /// Each adds rows of all pairs of the batch. Return the milliseconds that it took.
+    /// Add the rows of all pairs of the batch. Return the duration in milliseconds.
     [[nodiscard]] Result<double> addTouches(const cpu::Batch& batch, std::span<const Piece> pieces, WindowRows& rows);
     [[nodiscard]] Result<double> addCounts(const cpu::Batch& batch, std::span<const Piece> pieces, WindowRows& rows);
     [[nodiscard]] Result<double> addDistances(const cpu::Batch& batch, std::span<const Piece> pieces, WindowRows& rows);

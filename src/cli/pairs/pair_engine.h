@@ -11,7 +11,7 @@
 
 namespace voxtact::app {
 
-/// What answers pairs: the host, or a method of a device.
+/// Answers pairs: on the host, or by a method of a device.
 class PairEngine {
   public:
     PairEngine() = default;
@@ -25,14 +25,14 @@ class PairEngine {
     [[nodiscard]] virtual PairAnswer untouched() const = 0;
     /// Makes the volume of a job the one that answer() is about; says where it lies.
     [[nodiscard]] virtual Result<Grid> use(std::uint32_t job) = 0;
-    /// Of that volume.
+    /// Opaque voxels of the current volume.
     [[nodiscard]] virtual OpaqueVoxels opaque() const = 0;
     /// Answers for the selected poses of the window, in order. Ends early, and well, once `stop` says so.
     [[nodiscard]] virtual Result<void> answer(const Window& window, WindowRows& rows,
                                               const std::function<bool()>& stop) = 0;
 };
 
-/// The jobs of each volume, where they stand side by side: their pairs, as far as they are of the shard.
+/// Returns the jobs of each volume, if consecutive: their pairs in the shard.
 [[nodiscard]] std::vector<PairRange> volumeGroups(const PairOptions& options, const PairInputs& inputs);
 
 /// Puts pairs to an engine.
@@ -44,9 +44,9 @@ class PairAsker {
     /// The pairs of a range. Ends early, and well, once the user interrupts. `progress` is called now and then.
     [[nodiscard]] Result<void> answer(const PairRange& range, PairOutput& output,
                                       const std::function<void()>& progress);
-    /// That the engine took so far.
+    /// Returns the engine's duration so far.
     [[nodiscard]] double milliseconds() const noexcept { return milliseconds_; }
-    /// What is to be said of meshes and volumes that do not fit.
+    /// Adds notes on meshes and volumes that do not fit.
     void addTo(std::vector<std::string>& notes) const { fit_.addTo(notes); }
 
   private:
@@ -60,12 +60,12 @@ class PairAsker {
     double milliseconds_ = 0;
 };
 
-/// All pairs of the jobs by the engine. Ends early, and well, once the user interrupts. Returns the milliseconds that
-/// the engine took. What is to be said of meshes and volumes that do not fit is added to `notes`.
+/// Answers all pairs of the jobs; an interrupt ends it early without an error. Returns the engine's duration,
+/// milliseconds. Adds notes on meshes and volumes that do not fit to `notes`.
 [[nodiscard]] Result<double> answerPairs(const PairOptions& options, PairInputs& inputs, PairEngine& engine,
                                          PairOutput& output, std::vector<std::string>& notes);
 
-/// Calls `answer` for an engine of the session's device, or of the host (no Vulkan). What it was made of ends with it.
+/// Calls `answer` with an engine on the session's device, or on the host (no Vulkan). Its objects end with it.
 using UseEngine = std::function<Result<void>(PairEngine&)>;
 [[nodiscard]] Result<void> withDeviceEngine(const PairOptions& options, const PairInputs& inputs,
                                             const device::Session& session, CountingMethod method,

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-/// Which mesh is asked about against which volume.
+/// The pairs of meshes and volumes of a run.
 namespace voxtact::app {
 
 /// Numbers in the lists of PairJobs.
@@ -15,7 +15,7 @@ struct Job {
     std::uint32_t volume = 0;
 };
 
-/// Each source stands once in its list, however often it is given.
+/// Each source is in its list once.
 struct PairJobs {
     std::vector<std::string> meshes;
     std::vector<std::string> volumes;

@@ -20,8 +20,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Columns of text are as wide as what is in them: a screen of rows is waited for before they are settled, and more
-/// where they come fast, but not long.
+/// Text columns fit their contents: their widths are set after a screen of rows, or more if they come fast, but after a
+/// short time.
 constexpr auto kTextWait = std::chrono::milliseconds(300);
 constexpr auto kLongTextWait = std::chrono::seconds(3);
 constexpr std::size_t kFewTextRows = 32;
@@ -32,14 +32,14 @@ constexpr std::size_t kManyTextRows = 4096;
 struct PairOutput::State {
     State(const PairOptions& how, const PairInputs& what)
         : options(how), inputs(what), format(how.output.format()), columns(how, what),
-          // What validation says decides whether there is a table at all.
+          // A validation error suppresses the table.
           held(how.output.path.empty() && how.device.validate) {}
 
     Result<void> writeRows(std::span<const Row> part);
     Result<void> writeHeld();
     Result<void> pass();
     std::ostream& out() { return table ? table->stream() : text; }
-    /// All of them, that of the rows first.
+    /// Returns all files, that of the rows first.
     std::vector<ResultFile*> files();
 
     const PairOptions& options;
@@ -228,7 +228,7 @@ Result<void> PairOutput::finish(double wallMilliseconds) {
     if (state.side && state.sideFacts.comesLast) {
         writeWitnesses(state.side->stream(), state.options, state.inputs, state.closest);
     }
-    // Nothing gets its name before all is written. What is on standard output cannot be taken back, and may fail.
+    // Files are renamed after all are written. Standard output cannot be undone, and may fail.
     for (ResultFile* const file : state.files()) {
         VOXTACT_TRY(file->close());
     }
@@ -240,7 +240,7 @@ Result<void> PairOutput::finish(double wallMilliseconds) {
             all.push_back(file->file());
         }
     }
-    // The table is the last to get its name: where it is, all of them are.
+    // The table is renamed last: if it exists, all files do.
     std::ranges::reverse(all);
     return io::OutputFile::commitAll(all);
 }

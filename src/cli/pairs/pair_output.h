@@ -14,7 +14,7 @@ struct OpenBounds {
     std::uint64_t rounding = 0; ///< rounding leaves the rest undecided
     std::uint64_t budget = 0;   ///< the iteration limit was reached
 
-    /// Empty: there are none.
+    /// Returns the note; may be empty.
     [[nodiscard]] std::string note(Question question) const;
 };
 
@@ -39,7 +39,7 @@ class PairOutput {
     /// False: as many are kept as there is room for.
     [[nodiscard]] bool keepContact(const Row& row, const Contact& contact);
     void countContacts(std::uint64_t found) noexcept;
-    /// For --stats.
+    /// Adds counters, for --stats.
     void addCounters(const CertifiedCounters& counters) noexcept;
 
     [[nodiscard]] std::uint64_t rows() const noexcept;

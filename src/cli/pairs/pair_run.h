@@ -78,14 +78,14 @@ struct PairOptions {
     std::uint32_t threads = 0; ///< 0: one for each processor
 
     [[nodiscard]] bool measures() const { return question >= Question::Distance; }
-    /// Whether a row is a label of a pair.
+    /// True if a row is a label of a pair.
     [[nodiscard]] bool byLabel() const { return !measure.labels.empty(); }
     [[nodiscard]] std::uint32_t maxPairs() const { return batch.value_or(kDefaultBatch); }
-    /// Whether the number of the pose does not identify a pair.
+    /// True if the index of the pose does not identify a pair.
     [[nodiscard]] bool hasSeveralJobs() const { return jobs.jobs.size() > 1; }
 };
 
-/// What is read before there is a device.
+/// Inputs, read before a device is opened.
 struct PairInputs {
     std::vector<MeshData> meshes;
     std::vector<Box> bounds; ///< of the meshes, object space
@@ -96,7 +96,7 @@ struct PairInputs {
     std::map<std::int32_t, std::string> labelNames;
     std::vector<std::int32_t> measured; ///< numbers of MeasureOptions::labels; each once
 
-    /// Of all jobs; nothing while standard input has not ended.
+    /// Number of pairs of all jobs; empty while standard input is open.
     [[nodiscard]] std::optional<std::uint64_t> pairs(const PairJobs& jobs) const;
 };
 
@@ -146,10 +146,10 @@ struct KeptClosest {
 /// other.
 [[nodiscard]] Result<void> resolveOptions(PairOptions& options);
 
-/// Whether a method and filter support the projection certified.
+/// Returns true if a method and filter support the projection certified.
 [[nodiscard]] bool canBeCertified(const MethodOptions& method);
 
-/// Whether the host engine answers.
+/// Returns true if the host engine answers.
 [[nodiscard]] bool isForHost(const PairOptions& options);
 
 /// Reads meshes, poses, camera, control points and labels; volumes are read one at a time, later.
@@ -158,7 +158,7 @@ struct KeptClosest {
 /// Refuses a volume on another grid than the label map where a row is a label.
 [[nodiscard]] Result<void> checkMeasuredGrid(const PairOptions& options, const PairInputs& inputs, const Grid& volume);
 
-/// How a volume is sampled.
+/// Sampling of a volume.
 struct VolumeSettings {
     ValueRange domain;
     std::uint32_t tableSize = kDefaultTableSize;
@@ -179,8 +179,8 @@ constexpr std::uint64_t kMaxOutputBytes = std::uint64_t{256} << 20U;
 
 /// Triangles of the largest mesh.
 [[nodiscard]] std::uint64_t maxTriangles(const PairInputs& inputs);
-/// Pairs of a batch or submission: --batch, or fewer where their outputs would take too much memory. `copies` of them
-/// are in flight.
+/// Returns the number of pairs per batch or submission: --batch, or fewer if their outputs would take too much memory.
+/// `copies` of them are in flight.
 [[nodiscard]] std::uint32_t pairsPerBatch(const PairOptions& options, const PairInputs& inputs, std::uint32_t copies);
 
 /// The name of a label; its number where it has none.

@@ -18,7 +18,7 @@ class PairColumns {
     [[nodiscard]] io::Table table(std::span<const Row> rows) const;
 
   private:
-    /// A line of the table: a pair, or one label of it.
+    /// A row of the table: a pair, or one of its labels.
     struct Line {
         const Row* row;
         const Measured* measured; ///< null: none

@@ -33,7 +33,7 @@ Box fragmentsOf(const Mat4& texture_from_object, const Box& object) {
                 std::abs(texture_from_object[4 * c + axis]) * std::max(std::abs(object.lo[c]), std::abs(object.hi[c]));
         }
         const double margin = kOfTheBox * (box.hi[axis] - box.lo[axis] + 1) + kOfTheNumbers * numbers;
-        // Of numbers that are too large nothing is known.
+        // Unknown for too large numbers.
         const bool known = margin < kInfinity;
         box.lo[axis] = known ? box.lo[axis] - margin : -kInfinity;
         box.hi[axis] = known ? box.hi[axis] + margin : kInfinity;
@@ -41,7 +41,7 @@ Box fragmentsOf(const Mat4& texture_from_object, const Box& object) {
     return box;
 }
 
-/// Which of the poses come near the volume.
+/// Returns the poses near the volume.
 Result<std::vector<std::uint32_t>> nearPoses(std::span<const Mat4> world_from_object, const Mat4& texture_from_world,
                                              const Box& object) {
     std::vector<Box> boxes;

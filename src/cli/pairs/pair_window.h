@@ -4,10 +4,10 @@
 #include "cli/pairs/pair_run.h"
 #include "core/batch/batch_pace.h"
 
-/// The pairs of the jobs in order, a bounded number at a time, and which of them an engine answers.
+/// Splits the pairs of the jobs into bounded windows, and selects those that an engine answers.
 namespace voxtact::app {
 
-/// Of a window: few against what a device does in a second, and 8 MB of matrices.
+/// Pairs per window: few compared with a device's pairs per second; 8 MB of matrices.
 constexpr std::uint32_t kWindowPairs = 1U << 16U;
 
 /// Some poses of a job. The object-space mesh at those that are `selected` comes near the volume; at the others nothing
@@ -25,8 +25,8 @@ struct Window {
     std::size_t pairs = 0; ///< of all items, selected or not
 };
 
-/// Pairs of jobs with one volume: in order, `count` of them at most, from number `first` of the job `begin` on, or of
-/// those behind it up to before `end`. Only where it is known how many poses these have, `first` is not 0.
+/// At most `count` pairs of jobs with one volume, in order: from pair `first` of the job `begin`, up to the job `end`.
+/// `first` is 0 if the number of poses is unknown.
 struct PairRange {
     std::uint32_t begin = 0;
     std::uint32_t end = 0;

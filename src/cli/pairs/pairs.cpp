@@ -18,7 +18,7 @@ CountingMethod deviceMethod(const PairOptions& options, const Context& context) 
                                                                                      : context.defaultMethod());
 }
 
-/// No output may be an input, or another output.
+/// Refuses an output that is an input or another output.
 Result<void> checkPairPaths(const PairOptions& options) {
     const SideFile side = sideFile(options);
     return checkOutputs(
@@ -28,7 +28,7 @@ Result<void> checkPairPaths(const PairOptions& options) {
         inputPaths(options.volumes, options.meshes, options.transferFunction, options.view, options.labels));
 }
 
-/// By the host, or by the device that the options name.
+/// Uses the host, or the device of the options.
 Result<void> withEngine(const PairOptions& options, const PairInputs& inputs, std::vector<std::string>& notes,
                         std::shared_ptr<const device::ValidationMessages>& messages, const UseEngine& answer) {
     if (isForHost(options)) {

@@ -19,7 +19,7 @@ constexpr std::size_t kMostKept = std::size_t{1} << 16U;
 
 constexpr const char* kStandardInput = "standard input";
 
-/// What a file holds is no fault of the arguments.
+/// An error in a file's contents is no invalid argument.
 Error fileFault(Error error) {
     error.code = error.code == ErrorCode::InvalidArgument ? ErrorCode::Format : error.code;
     return error;
@@ -56,7 +56,7 @@ Result<void> PoseSource::takeStock() {
     std::uint64_t count = 0;
     bool more = true;
     while (more) {
-        // What is kept is not read again, and standard input cannot be.
+        // Kept poses are not read again; standard input cannot be.
         const Result<bool> read = reader->read(kMostKept, part);
         VOXTACT_TRY(read);
         more = *read;

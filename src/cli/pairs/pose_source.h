@@ -15,18 +15,18 @@ namespace voxtact::app {
 /// their number.
 class PoseSource {
   public:
-    /// No path: the identity. "-": standard input, which is read as it is asked for, or all at once where it is needed
-    /// `again`. A file is read once at once, so that what is wrong with it is known before there are answers. `space`:
-    /// of the file; poses come out in LPS.
+    /// Opens poses. Without a path: the identity. "-": standard input, read on demand, or at once if it is needed
+    /// `again`. A file is read completely first, so that its errors precede all answers. `space`: of the file; poses
+    /// are returned in LPS.
     [[nodiscard]] static Result<PoseSource> open(const std::filesystem::path& path, bool again,
                                                  const std::string& space = "lps");
 
-    /// How many there are, where that is known.
+    /// Returns the number of poses, if known.
     [[nodiscard]] std::optional<std::uint64_t> count() const noexcept { return count_; }
 
-    /// From number `from` on, which must be below count(), or 0. Forward from where it is, nothing is read twice.
+    /// Starts at pose `from`, which must be below count(), or 0. Moving forward reads nothing twice.
     [[nodiscard]] Result<void> begin(std::uint64_t from = 0);
-    /// The next ones, at most so many, instead of what `poses` holds; none at the end.
+    /// Replaces `poses` by the next ones, at most `most`; empty at the end.
     [[nodiscard]] Result<void> next(std::size_t most, std::vector<Mat4>& poses);
 
   private:
@@ -36,7 +36,7 @@ class PoseSource {
     std::filesystem::path path_;
     std::string space_;
     std::optional<std::uint64_t> count_;
-    std::vector<Mat4> kept_; ///< all of them, where they are few
+    std::vector<Mat4> kept_; ///< all poses, if few
     bool isKept_ = false;
     std::optional<io::PoseReader> reader_;
     std::uint64_t given_ = 0; ///< since begin()

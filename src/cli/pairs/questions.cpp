@@ -17,8 +17,8 @@ constexpr const char* kTouchFooter =
   x,y,z     witness point: opaque, on the triangle or within --margin of it, to
             rounding; by the host engine, without --uncertainty
   label     of the label map at that point
-Only the surface touches, unless --solid: a mesh that encloses an opaque region
-does not.
+Without --solid only the surface counts: a mesh that encloses an opaque region
+does not touch it.
 
 Examples:
   voxtact touch --volume head.nii.gz --mesh tool.stl --poses poses.txt --iso 40
@@ -35,7 +35,7 @@ Example:
 
 constexpr const char* kDistanceFooter =
     R"(Output: pose,mesh,volume,lower,upper; with --to also label before lower
-  lower,upper   bounds of the distance from the surface to the opaque region, mm;
+  lower,upper   bounds of the distance from surface to opaque region, mm;
                 0,0: a touch (with --to: 0 and at most --tolerance);
                 inf,inf: nothing is opaque; upper inf: at least --max
 
@@ -56,8 +56,8 @@ constexpr const char* kOverlapFooter =
   lower,upper   bounds of the opaque volume inside the closed mesh, mm^3
   inside        none, some or all of the opaque region, or undecided
   solid_...     bounds of the volume of the mesh
-With --in label comes before lower, and inside is about that label.
-With --bands a row is the volume of values from .. below, opaque or not.
+With --in the column label precedes lower, and inside refers to that label.
+With --bands a row is the volume of the values of one band, opaque or not.
 
 Examples:
   voxtact overlap --volume ct.nrrd --mesh screw.stl --poses poses.txt --iso 300
@@ -170,7 +170,7 @@ Command addCount(CLI::App& program) {
     addCameraOptions(*command.parser, command.options->view);
     addEngine(command);
     command.parser->add_flag("--stats", command.options->stats,
-                             "add a line with the counters of the certified passes on a device");
+                             "append the counters of the certified passes on a device");
     for (const char* rare : {"--camera", "--size", "--stats"}) {
         setRare(*command.parser, rare);
     }
@@ -184,7 +184,7 @@ Command addDistance(CLI::App& program) {
     addFact(*command.parser, factOf("distance", "tolerance"), [&measure](double mm) { measure.tolerance = mm; });
     addFact(*command.parser, factOf("distance", "max"), [&measure](double mm) { measure.maximum = mm; });
     addPath(*command.parser, "--witness", measure.witness, "file of witness points: .csv, .ply");
-    addLabelChoice(*command.parser, "--to", measure.labels, "a row a label: numbers, names, or all");
+    addLabelChoice(*command.parser, "--to", measure.labels, "one row per label: numbers, names, or all");
     addSolid(command);
     command.parser->add_flag("--any-opacity", measure.anyOpacity, "with --to: the whole label, opaque or not");
     return end(command);
@@ -196,20 +196,20 @@ Command addArea(CLI::App& program) {
     measure.tolerance = *factOf("area", "tolerance").standard;
     addFact(*command.parser, factOf("area", "tolerance"), [&measure](double mm2) { measure.tolerance = mm2; });
     addPath(*command.parser, "--triangles", measure.triangles, "CSV file of the area of each triangle");
-    addLabelChoice(*command.parser, "--in", measure.labels, "a row a label: numbers, names, or all");
+    addLabelChoice(*command.parser, "--in", measure.labels, "one row per label: numbers, names, or all");
     return end(command);
 }
 
 Command addOverlap(CLI::App& program) {
     const Subcommand command =
-        begin(program, Question::Overlap, "how much of the opaque region is inside the closed mesh?", kOverlapFooter);
+        begin(program, Question::Overlap, "how much of the opaque region is inside the mesh?", kOverlapFooter);
     MeasureOptions& measure = command.options->measure;
     measure.tolerance = *factOf("overlap", "tolerance").standard;
     addFact(*command.parser, factOf("overlap", "tolerance"), [&measure](double mm3) { measure.tolerance = mm3; });
     addText(
         *command.parser, "--bands", [&measure](const std::string& text) { return parseBands(text, measure.bands); },
-        "a row a band of values: limits, ascending", "V,V,...");
-    addLabelChoice(*command.parser, "--in", measure.labels, "a row a label: numbers, names, or all");
+        "one row per band of values: ascending limits", "V,V,...");
+    addLabelChoice(*command.parser, "--in", measure.labels, "one row per label: numbers, names, or all");
     command.parser->add_flag("--fill-holes", measure.fillHoles, "close holes of the mesh by flat fans");
     return end(command);
 }

@@ -44,7 +44,7 @@ void WindowRows::addWitness(std::uint32_t pair, const WitnessPoint& witness) {
     rows_[batch_[pair]].witness = witness;
 }
 
-/// What touches at 0, and what may, for the notes and the summary.
+/// Touches at distance 0, and possible touches, for the notes and the summary.
 template <class Distance> void WindowRows::keepDistance(const Distance& distance, std::int32_t label) {
     Row& row = rows_[batch_[distance.pair]];
     const Bounds bounds = roundedOutward(distance.bounds);
@@ -86,7 +86,7 @@ void WindowRows::addArea(const TriangleArea& area) {
     output_.addTriangleArea(rows_[batch_[area.pair]], area);
 }
 
-/// What has something opaque inside, and what may.
+/// Pairs with an opaque region inside, and possible ones.
 template <class Overlap> Measured& WindowRows::keepOverlap(const Overlap& overlap) {
     Row& row = rows_[batch_[overlap.pair]];
     const Bounds bounds = roundedOutward(overlap.bounds, options_.measure.tolerance);

@@ -17,7 +17,7 @@ class WindowRows {
 
     /// The answer for a selected pose of an item; in order.
     void add(const device::TimedAnswer& timed);
-    /// Sets the milliseconds a pair of those that were added since the last endBatch().
+    /// Sets the time per pair, milliseconds, of the pairs added since the last endBatch().
     void setTime(double milliseconds);
     /// The witness point of the pair that was added as this number of its batch.
     void addWitness(std::uint32_t pair, const WitnessPoint& witness);
@@ -31,7 +31,7 @@ class WindowRows {
     void addArea(const LabelArea& area);
     /// Like addArea(), of one triangle; in order.
     void addArea(const TriangleArea& area);
-    /// The overlap of such a pair; with `label` or `band` in one of them; in order.
+    /// Adds the overlap of a pair, or of one of its labels or bands; in order.
     void addOverlap(const PairOverlap& overlap);
     void addOverlap(const LabelOverlap& overlap);
     void addOverlap(const BandOverlap& overlap);
@@ -42,7 +42,7 @@ class WindowRows {
     void endWindow();
 
     [[nodiscard]] std::span<const Row> rows() const noexcept { return rows_; }
-    /// Whether the output took all rows.
+    /// Result of the output of all rows.
     [[nodiscard]] const Result<void>& written() const noexcept { return written_; }
 
   private:

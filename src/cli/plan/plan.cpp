@@ -24,10 +24,10 @@ namespace voxtact::app {
 namespace {
 
 constexpr const char* kPlanFooter =
-    R"(Output: a row a straight path: entry,x,y,z,safe,lower,upper,nearest,...,target
+    R"(Output: a row per straight path: entry,x,y,z,safe,lower,upper,nearest,...,target
   safe           0 unsafe, 1 safe: both proven; 2 undecided
-  lower,upper    bounds of the distance to the obstacles on the way, mm
-  nearest,...    label of the nearest obstacle, or opaque; a point of it
+  lower,upper    bounds of the distance to the obstacles, mm
+  nearest,...    label of the nearest obstacle, or opaque; its nearest point
   length,angle   mm; degrees from the normal of the entry surface
   crosses        labels on the axis
 
@@ -64,7 +64,7 @@ Result<void> checkOptions(const PlanOptions& options) {
     return {};
 }
 
-/// Of the shard's targets, one after the other.
+/// Plans the targets of the shard, one after the other.
 Result<std::vector<TargetPlan>> planAll(const PlanOptions& options, const PlanInputs& inputs, cpu::HostEngine& engine) {
     const auto [first, end] = options.shard.range(inputs.targets.size());
     Progress progress(options.progress, "voxtact plan: targets", end - first);
@@ -139,7 +139,7 @@ class PictureDevice {
                                  [](std::uint32_t /*done*/, std::uint32_t /*rows*/) { return !interrupted(); }));
         return png.str();
     }
-    /// What validation has said, which is complete once the device is closed.
+    /// Validation messages, complete once the device is closed.
     [[nodiscard]] Outcome close() {
         session_.reset();
         return messages_ ? validationOutcome(*messages_) : Outcome();

@@ -24,7 +24,7 @@ namespace voxtact::app {
     return nearest > value ? std::nextafter(nearest, -std::numeric_limits<float>::infinity()) : nearest;
 }
 
-/// Of two that are safe: the larger clearance, else the shorter one.
+/// Orders safe paths: the larger distance first, then the shorter path.
 [[nodiscard]] inline bool isBetter(const PlannedPath& a, const PlannedPath& b) {
     return a.clearance.lower != b.clearance.lower ? a.clearance.lower > b.clearance.lower : a.length < b.length;
 }

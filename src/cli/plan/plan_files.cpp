@@ -12,7 +12,7 @@ namespace voxtact::app {
 
 namespace {
 
-/// What this format cannot hold is said before the work.
+/// Checks the limits of the format before the work.
 Result<void> checkHeatMap(const std::filesystem::path& path, const Grid& grid) {
     if (volumeEnding(path).empty()) {
         return badArgument("--heat-map: the ending of '" + path.string() + "' must be .nii.gz, .nii, .nrrd or .mha");

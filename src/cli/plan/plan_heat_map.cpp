@@ -21,8 +21,8 @@ using glm::dvec3;
 /// Three corners, in voxels: voxel i is all within half of i.
 using Corners = std::array<dvec3, 3>;
 
-/// Whether a triangle reaches into a voxel, by all directions that can separate the two: the voxel's axes, the
-/// triangle's normal, and what is perpendicular to an axis and an edge. In doubt it does.
+/// Returns true if a triangle meets a voxel, or rounding decides: tests all separating axes, those of the voxel, the
+/// triangle's normal, and the cross products of axes and edges.
 bool meets(const Corners& triangle, const dvec3& voxel) {
     constexpr double kDoubt = 1e-9; // voxels
     const Corners at{triangle[0] - voxel, triangle[1] - voxel, triangle[2] - voxel};
@@ -52,7 +52,7 @@ bool meets(const Corners& triangle, const dvec3& voxel) {
     return true;
 }
 
-/// The voxels so far, and what is least of what was said of each.
+/// Minimum over the paths through each voxel.
 class HeatMap {
   public:
     explicit HeatMap(const Grid& grid)
@@ -93,7 +93,7 @@ class HeatMap {
         const float one = roundedDown(clearance);
         value = value == kNoPath ? one : std::min(value, one);
     }
-    /// Those of a box that are in the grid.
+    /// Visits the voxels of a box inside the grid.
     template <class Visit> void forVoxels(const dvec3& lo, const dvec3& hi, const Visit& visit) {
         const dvec3 last(grid_.size[0] - 1.0, grid_.size[1] - 1.0, grid_.size[2] - 1.0);
         const dvec3 from = glm::max(lo, dvec3(0));

@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kAvoidOpacity = "--avoid-opacity";
 
-/// `who`: what its points are given by. What is to be said of it goes to `notes`.
+/// `who`: the option with its points. Notes go to `notes`.
 Result<cpu::TransferFunction> functionOf(const TransferFunctionOptions& how, const ValueRange& domain,
                                          const ValueRange& values, const std::string& source, std::string_view who,
                                          std::vector<std::string>& notes) {
@@ -85,11 +85,11 @@ Result<void> readInstrument(const PlanOptions& options, PlanInputs& inputs) {
     return {};
 }
 
-/// What is opaque in the volume, as it was read, or in another one.
+/// Reads the opaque obstacle, in the given volume or another one.
 Result<void> readAvoided(const PlanOptions& options, const TransferFunctionOptions& how, PlanInputs& inputs) {
     if (options.avoidVolume.empty()) {
         const PlanVolume& head = *inputs.head;
-        // That values go beyond it was said when the volume was read.
+        // Reading the volume has noted values outside the range.
         Result<cpu::TransferFunction> function = functionOf(how, tableDomain(how, head.type, head.values), head.values,
                                                             options.volumes.front(), kAvoidOpacity, inputs.notes);
         VOXTACT_TRY(function);

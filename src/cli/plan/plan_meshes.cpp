@@ -32,7 +32,7 @@ void addTriangle(MeshData& mesh, const std::array<dvec3, 3>& corners) {
     }
 }
 
-/// As a path of this safety and clearance would be.
+/// Colour of a path with this safety and distance.
 Rgb colourOf(const PlanInputs& inputs, const PlanAnswer& answer, const EntryTriangle& triangle, double maximum) {
     constexpr double kColours = 24; // each is a mesh
     PlannedPath all = answer.paths[triangle.paths[0]];
@@ -64,8 +64,8 @@ glm::dmat3 halfTurn(const dvec3& axis) {
     return 2.0 * glm::outerProduct(axis, axis) - glm::dmat3(1);
 }
 
-/// That takes one direction to another, as a plan holds a mesh: half a turn about the first, then about what is
-/// half-way to the second, is one about both.
+/// Rotation between two directions, as in a plan with a mesh: half a turn about the first, then half a turn about the
+/// bisector, which is one about both.
 Mat4 smallestTurn(const dvec3& from, const dvec3& to) {
     dvec3 between = from + to;
     if (glm::length(between) < 1e-6) {

@@ -53,7 +53,7 @@ std::vector<ChosenPath> rankedPaths(std::span<const TargetPlan> plans, std::size
         }
     }
     const std::size_t kept = std::min(safe.size(), most);
-    // Of equals the first, as they come.
+    // Of equal ones, the first.
     const auto isBefore = [](const ChosenPath& a, const ChosenPath& b) {
         return isBetter(*a.path, *b.path) ||
                (!isBetter(*b.path, *a.path) && std::pair(a.plan, a.path) < std::pair(b.plan, b.path));

@@ -21,12 +21,10 @@ void addObstacleOptions(CLI::App& parser, const std::shared_ptr<PlanOptions>& op
     addPath(parser, "--labels", options->labels, "label map on the volume's grid");
     addPath(parser, "--label-names", options->labelNames,
             "names of its labels, lines 'number name'; default: the label map's path with .txt, if it exists");
-    parser.add_option("--avoid", options->avoid, "labels that are obstacles, opaque or not: numbers or names")
+    parser.add_option("--avoid", options->avoid, "labels to avoid, opaque or not: numbers or names")
         ->delimiter(',')
         ->type_name("LABEL,...");
-    parser
-        .add_option("--avoid-opacity", options->avoidOpacity,
-                    "the opaque region under this transfer function is an obstacle, too")
+    parser.add_option("--avoid-opacity", options->avoidOpacity, "transfer function of a further opaque obstacle")
         ->type_name("LIST");
     parser.add_option("--avoid-volume", options->avoidVolume, "volume of --avoid-opacity; default: that of --volume")
         ->type_name("PATH")
@@ -42,20 +40,19 @@ void addTargetOptions(CLI::App& parser, const std::shared_ptr<PlanOptions>& opti
             options->targets.push_back(text);
             return {};
         },
-        "target of the tip: a point in mm, or the middle of a label; repeatable", "x,y,z|LABEL");
-    parser.add_option("--target-label", options->targetLabels, "targets: the middles of these labels")
+        "target: a point (mm) or a label's centre; repeatable", "x,y,z|LABEL");
+    parser.add_option("--target-label", options->targetLabels, "targets: the centres of these labels")
         ->delimiter(',')
         ->type_name("LABEL,...");
-    addPath(parser, "--targets", options->targetFile,
-            "file of targets: lines 'x y z [name]' in mm, .fcsv or .mrk.json");
-    addSpace(parser, "--space", options->space, "of the targets: lps or ras; default: as --targets states, else lps",
+    addPath(parser, "--targets", options->targetFile, "targets: lines 'x y z [name]' in mm, .fcsv, .mrk.json");
+    addSpace(parser, "--space", options->space, "space of targets: lps or ras; default: as --targets states, else lps",
              "");
 }
 
 void addEntryOptions(CLI::App& parser, const std::shared_ptr<PlanOptions>& options) {
     addWholeNumber(
         parser, "--entries", [options](std::uint32_t entries) { options->entries = entries; },
-        {.least = 12, .most = kMaxEntries}, "directions from a target, rounded up to 10 n^2 + 2", options->entries);
+        {.least = 12, .most = kMaxEntries}, "directions, rounded up to 10 n^2 + 2", options->entries);
     parser
         .add_option("--entry-label", options->entryLabel,
                     "entries on the outside of this label; default: of the opaque region")
@@ -82,13 +79,12 @@ void addPlanOptions(CLI::App& parser, const std::shared_ptr<PlanOptions>& option
     addTargetOptions(parser, options);
     addObstacleOptions(parser, options);
     addEntryOptions(parser, options);
-    addPath(parser, "--by-target", options->byTarget, "CSV file, a row a target: safe paths, area, best path");
+    addPath(parser, "--by-target", options->byTarget, "CSV file, one row per target: safe paths, area, best path");
     addPath(parser, "--surface", options->surface,
             ".ply file of the entries, coloured; several targets: a path with {target}");
-    addPath(
-        parser, "--heat-map", options->heatMap,
-        ".nii.gz, .nii, .nrrd or .mha of the distance that paths through a voxel keep, mm; several targets: {target}");
-    addPath(parser, "--picture", options->picture, ".png file of entries and best path; needs a Vulkan device");
+    addPath(parser, "--heat-map", options->heatMap,
+            "volume file of the distance of paths through each voxel, mm; several targets: {target}");
+    addPath(parser, "--picture", options->picture, "PNG of entries and best path; needs a Vulkan device");
     addSize(
         parser,
         [options](const VkExtent2D& size) {
@@ -97,10 +93,10 @@ void addPlanOptions(CLI::App& parser, const std::shared_ptr<PlanOptions>& option
         },
         "size of each half of the picture, pixels");
     addDeviceOptions(parser, options->device);
-    addPath(parser, "--report", options->report, ".html file: notes, best paths, entries; needs no network");
+    addPath(parser, "--report", options->report, "HTML report: notes, best paths, entries");
     addThreadsOption(parser, options->threads);
     parser.add_flag("--summary", options->summary, "print totals and the best path to standard error");
-    parser.add_flag("--timing", options->timing, "add a last line with the totals");
+    parser.add_flag("--timing", options->timing, "append a line with the totals");
     addShardOption(parser, options->shard);
     addOutputOptions(parser, options->output);
     addProgressOption(parser, options->progress);

@@ -29,12 +29,12 @@ ViewDirection directionTo(const dvec3& eye) {
     return {glm::degrees(std::atan2(eye.x, -eye.y)), glm::degrees(std::asin(std::clamp(eye.z, -1.0, 1.0)))};
 }
 
-/// What is shown of which plan.
+/// The plan and the path of a picture.
 struct Shown {
     const TargetPlan* plan = nullptr;
     const PlannedPath* best = nullptr; ///< null: no path is safe
     dvec3 along{0, -1, 0};             ///< from the target to the best entry; without one to the middle of all
-    dvec3 away{};                      ///< perpendicular to that: what is on this side is cut away
+    dvec3 away{};                      ///< perpendicular to the path: this side is cut away
 };
 
 dvec3 middleOf(const PlanAnswer& answer) {
@@ -56,7 +56,7 @@ Shown shownOf(std::span<const TargetPlan> plans) {
     }
     const dvec3 level = glm::cross(out.along, dvec3(0, 0, 1));
     out.away = glm::length(level) > 0.1 ? glm::normalize(level) : dvec3(1, 0, 0);
-    // Of its two sides the one from the left or the front: what is usual.
+    // The side towards the left or the front, by convention.
     if (out.away.x - out.away.y < 0) {
         out.away = -out.away;
     }
@@ -81,7 +81,7 @@ class PlanPainter {
         scene_.values = head.values;
         scene_.domain = tableDomain(options_.transferFunction, head.type, head.values);
         scene_.opacity = points->empty() ? defaultRamp(scene_.domain) : std::move(*points);
-        // What is cut shows the values themselves.
+        // The cut face shows the values themselves.
         scene_.colours = {{head.values.lo, {0.05, 0.05, 0.05}}, {head.values.hi, {1, 0.98, 0.95}}};
         scene_.poses = {identity()};
         look_.transferFunction = options_.transferFunction;
@@ -89,7 +89,7 @@ class PlanPainter {
         look_.background = {0.11, 0.12, 0.14};
         return {};
     }
-    /// From outside, somewhat beside the path, so that it is not seen as a point.
+    /// From outside, slightly beside the path, which would otherwise be a point.
     [[nodiscard]] Result<Picture> outside(VkExtent2D size) {
         constexpr double kBeside = 0.45; // radians
         const dvec3 eye = std::cos(kBeside) * shown_.along + std::sin(kBeside) * shown_.away;
@@ -103,7 +103,7 @@ class PlanPainter {
         }
         return paint(size, "entries to " + targetText() + ", " + areaText(), std::move(swatches), false);
     }
-    /// From beside, with what is before the path away.
+    /// From the side, without the part in front of the path.
     [[nodiscard]] Result<Picture> cut(VkExtent2D size) {
         const Vec3 target = shown_.plan->target.at;
         const Vec3 normal = fromGlm(shown_.away);

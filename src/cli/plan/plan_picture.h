@@ -20,11 +20,11 @@ struct ColouredMesh {
 /// whose middle is `kept`, a bit in front of the surface that they are on.
 [[nodiscard]] std::vector<ColouredMesh> entryMeshes(const PlanInputs& inputs, const TargetPlan& plan, double maximum,
                                                     const std::function<bool(const Vec3&)>& kept);
-/// The needle where its tip is at the target, and no more of it than is to be seen; of a mesh the mesh.
+/// Returns the needle with its tip at the target, or its visible part; for a mesh, the mesh.
 [[nodiscard]] Result<ColouredMesh> instrumentMesh(const PlanInputs& inputs, const TargetPlan& plan,
                                                   const PlannedPath& path);
-/// The voxels of avoided labels at a cut through a point, what is before it along the normal being away. No triangle:
-/// there are none.
+/// Returns the voxels of avoided labels at a cut through a point; the part in front of it along the normal is removed.
+/// Without triangles there are none.
 [[nodiscard]] ColouredMesh avoidedMesh(const PlanInputs& inputs, const Vec3& point, const Vec3& normal);
 
 /// The best of all paths, twice beside each other: along it from outside, and the head cut open at it. Without a safe

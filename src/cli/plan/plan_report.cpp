@@ -18,13 +18,13 @@ namespace voxtact::app {
 namespace {
 
 constexpr std::size_t kRanked = 25;
-/// Of a picture: more would only hide each other.
+/// Maximum dots of a picture: more would hide each other.
 constexpr std::size_t kMostDots = 8000;
 constexpr double kDisc = 240; ///< pixels, the radius of a half of the map
 
 using Rounding = double (*)(double);
 
-/// `round`: std::floor and std::ceil keep what is certain of a bound.
+/// `round`: std::floor and std::ceil keep a bound a bound.
 std::string fixed(double value, int digits, Rounding round = std::round) {
     const double scale = std::pow(10.0, digits);
     TextStream out;
@@ -104,7 +104,7 @@ void writeRows(std::ostream& out, const io::Table& table, std::span<const std::s
     out << "</table>\n";
 }
 
-/// Of one target or of all.
+/// For one target or all.
 void writeRanking(std::ostream& out, const PlanInputs& inputs, std::span<const TargetPlan> plans) {
     std::vector<std::size_t> rows;
     for (const ChosenPath& best : rankedPaths(plans, kRanked)) {
@@ -145,7 +145,7 @@ void writeKey(std::ostream& out, double maximum) {
     out << "</p>\n";
 }
 
-/// RFC 4648, for what is in a page itself.
+/// RFC 4648, for data URLs in the page.
 std::string base64(std::string_view bytes) {
     constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     constexpr unsigned kBits = 6;

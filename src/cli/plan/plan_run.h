@@ -18,7 +18,7 @@
 #include <string_view>
 #include <vector>
 
-/// What the parts of `voxtact plan` share.
+/// Common parts of `voxtact plan`.
 namespace CLI {
 class App;
 } // namespace CLI
@@ -33,7 +33,7 @@ struct PlanOptions {
     std::filesystem::path labelNames;
     std::vector<LabelWord> avoid;
     std::string avoidVolume;                 ///< empty: the volume itself
-    std::optional<std::string> avoidOpacity; ///< nothing: what is opaque is not avoided
+    std::optional<std::string> avoidOpacity; ///< empty: no opaque obstacle
     std::string space;                       ///< of points: lps or ras; empty: not given
     std::vector<std::string> targets;        ///< x,y,z or a label each
     std::vector<LabelWord> targetLabels;     ///< after them: labels
@@ -57,7 +57,7 @@ struct PlanOptions {
     std::filesystem::path surface;  ///< a .ply file to write; empty: none
     std::filesystem::path heatMap;  ///< a volume to write; empty: none
     std::filesystem::path picture;  ///< a .png file to write; empty: none
-    VkExtent2D half{512, 512};      ///< of the picture, which has two of them beside each other
+    VkExtent2D half{512, 512};      ///< size of each of the picture's two halves
     bool sizeGiven = false;
     DeviceChoice device;
     std::filesystem::path report; ///< an .html file to write; empty: none
@@ -73,7 +73,7 @@ struct PlanVolume {
     ValueRange values; ///< of its voxels
 };
 
-/// Where a tip goes.
+/// A target of the tip.
 struct PlanTarget {
     std::string name; ///< a label's, or a line's of a file; else its number among all, from 1
     Vec3 at{};        ///< world mm
@@ -91,19 +91,19 @@ struct ChosenPath {
     const PlannedPath* path = nullptr;
 };
 
-/// What is read, and what of it is planned with.
+/// Inputs of plans.
 struct PlanInputs {
     std::optional<PlanVolume> head;
-    std::optional<PlanVolume> avoided;                  ///< what is opaque of it is an obstacle
+    std::optional<PlanVolume> avoided;                  ///< volume whose opaque region is an obstacle
     std::optional<cpu::TransferFunction> avoidedInHead; ///< the same of `head`
     std::optional<NamedLabels> labels;
     std::optional<cpu::Mesh> mesh;
-    std::optional<VolumeData> shown;          ///< for a picture: what `head` is made of
-    std::optional<MeshData> shownMesh;        ///< for a picture: what `mesh` is made of
-    std::vector<cpu::PlanObstacle> obstacles; ///< refer to what is above
+    std::optional<VolumeData> shown;          ///< for a picture: source of `head`
+    std::optional<MeshData> shownMesh;        ///< for a picture: source of `mesh`
+    std::vector<cpu::PlanObstacle> obstacles; ///< reference the members above
     std::vector<PlanTarget> targets;          ///< of different names; never none
     cpu::Plan task;                           ///< refers to all of these; its target is the first
-    std::vector<std::string> notes;           ///< to be said once all has gone well: an error is one line
+    std::vector<std::string> notes;           ///< printed after success: an error is one line
 };
 
 void addPlanOptions(CLI::App& parser, const std::shared_ptr<PlanOptions>& options);
@@ -111,11 +111,11 @@ void addPlanOptions(CLI::App& parser, const std::shared_ptr<PlanOptions>& option
 /// x,y,z; nothing where a text is not three finite numbers.
 [[nodiscard]] std::optional<Vec3> parsePoint(const std::string& text);
 
-/// What a plan reads, for who must not write over it.
+/// Returns the inputs of a plan, which outputs must not overwrite.
 [[nodiscard]] std::vector<NamedPath> planReads(const PlanOptions& options);
-/// What it writes, but for the files of which each target has one.
+/// Returns the outputs of a plan, without the files per target.
 [[nodiscard]] std::vector<NamedPath> planWrites(const PlanOptions& options);
-/// Reads all of it. What comes out must not be moved: it refers to itself.
+/// Reads all inputs. The result must not be moved: it references itself.
 [[nodiscard]] Result<std::unique_ptr<PlanInputs>> readPlan(const PlanOptions& options);
 /// Sets where tips go; volume and labels are read.
 [[nodiscard]] Result<void> readTargets(const PlanOptions& options, PlanInputs& inputs);
@@ -127,9 +127,9 @@ void addPlanOptions(CLI::App& parser, const std::shared_ptr<PlanOptions>& option
 /// Plans for one of the targets.
 [[nodiscard]] Result<TargetPlan> planFor(const PlanInputs& inputs, std::size_t target, cpu::HostEngine& engine);
 
-/// Of safe paths of all plans the best ones first, no more than so many.
+/// Returns the best safe paths of all plans, at most this number.
 [[nodiscard]] std::vector<ChosenPath> rankedPaths(std::span<const TargetPlan> plans, std::size_t most);
-/// What is said of plans: how many paths are safe, the area, the best path.
+/// Returns the notes on plans: number of safe paths, area, best path.
 [[nodiscard]] std::vector<std::string> planNotes(const PlanInputs& inputs, std::span<const TargetPlan> plans);
 
 [[nodiscard]] std::vector<std::string> targetNames(const PlanInputs& inputs);
@@ -141,7 +141,7 @@ struct TargetFile {
     std::string ending;
     std::function<Result<void>(std::ostream&, const TargetPlan&)> write;
 };
-/// Those that are asked for. They refer to both.
+/// Returns the requested files. They reference both arguments.
 [[nodiscard]] std::vector<TargetFile> targetFiles(const PlanOptions& options, const PlanInputs& inputs);
 /// Refuses endings, grids that a file cannot hold, one file for several targets, and files that are read.
 [[nodiscard]] Result<void> checkTargetFiles(const PlanOptions& options, const PlanInputs& inputs);

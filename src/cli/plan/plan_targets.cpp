@@ -14,7 +14,7 @@ namespace voxtact::app {
 
 namespace {
 
-/// The centre of the voxel with the label that is nearest to the mean of all of them, so that it is in the label.
+/// Returns the centre of the label's voxel that is nearest to the mean of all its voxels, so that it lies in the label.
 Vec3 centreOf(const LabelData& labels, std::int32_t label) {
     const auto& size = labels.grid.size;
     std::vector<Vec3> voxels;
@@ -50,7 +50,7 @@ bool isInside(const Grid& grid, const Vec3& world) {
     return std::all_of(at.begin(), at.end(), [](double one) { return one >= 0 && one <= 1; });
 }
 
-/// The targets so far, and who asks for more.
+/// The targets so far, and the source of more.
 class TargetList {
   public:
     explicit TargetList(const PlanInputs& inputs) : inputs_(inputs) {}

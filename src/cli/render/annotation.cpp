@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kText = 13;      // pixels of an em in a picture of kPlain pixels
 constexpr double kPlain = 512;    // along its shorter side
-constexpr double kSmallest = 9.5; // of what can be read
+constexpr double kSmallest = 9.5; // smallest readable size
 constexpr double kLargest = 64;
 // In ems.
 constexpr double kRow = 1.6;
@@ -25,7 +25,7 @@ constexpr double kCube = 5;
 /// The least part of a picture, along each side, that is left for the volume.
 constexpr double kLeastFrame = 0.6;
 
-/// Where a line of text stands in a row.
+/// Baseline of a line of text in a row.
 double baseIn(const Box2& row, double size) {
     return (row.top + row.bottom + capitalHeight(size)) / 2;
 }

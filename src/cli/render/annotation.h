@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-/// What is written on a picture: from where it looks, how large things are, and what the colours mean.
+/// Text on a picture: view, scale, and legend.
 namespace voxtact::app {
 
-/// Pictures are annotated from so many pixels on along each side, where nothing else is said.
+/// Default minimum side of annotated pictures, pixels.
 inline constexpr std::uint32_t kAnnotatedFrom = 320;
 
-/// Where it is written. The volume is framed in what is left, so that nothing covers it.
+/// Space for annotations. The volume is framed in the rest, so nothing covers it.
 struct AnnotationRoom {
     double text = 0; ///< pixels of an em
     Box2 frame;      ///< for the volume
@@ -27,7 +27,7 @@ struct AnnotationRoom {
     bool letters = false;
 };
 
-/// What a small picture has no room for is left out: first legend and cube, then the title, then the rest.
+/// Omits annotations for which a small picture has no space: first legend and cube, then the title, then the rest.
 [[nodiscard]] AnnotationRoom roomFor(std::uint32_t width, std::uint32_t height, bool swatches, bool legend);
 
 struct Swatch {

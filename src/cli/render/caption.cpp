@@ -16,7 +16,7 @@ std::string inTenths(double value) {
     return number(std::round(10 * value) / 10);
 }
 
-/// From where the eye looks.
+/// Returns the text for the position of the eye.
 std::string viewText(const RenderOptions& options) {
     if (!options.view.camera.empty()) {
         return fileNameOf(options.view.camera.string());
@@ -54,7 +54,7 @@ std::string title(const RenderOptions& options, const RenderInputs& inputs) {
     return text;
 }
 
-/// What the last colour of clearances means.
+/// Returns the meaning of the last colour of distances.
 std::string farText(const RenderOptions& options) {
     return number(options.show.maximum.value_or(kDefaultShownClearance)) + " mm or more away";
 }

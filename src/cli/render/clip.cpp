@@ -49,7 +49,7 @@ ClipPlane planeOf(const ClipOption& clip, const Grid& grid, const Vec3& towardsE
     return clipSide(clip.side, clip.at, grid, towardsEye).value_or(ClipPlane{});
 }
 
-/// How far the volume's corners are along a normal.
+/// Returns the range of the volume's corners along a normal.
 ValueRange reachAlong(const Vec3& normal, const Grid& grid) {
     const Mat4 world_from_texture = worldFromTexture(grid);
     ValueRange reach{kInfinity, -kInfinity};
@@ -62,8 +62,8 @@ ValueRange reachAlong(const Vec3& normal, const Grid& grid) {
     return reach;
 }
 
-/// The planes that bound what is left of the volume, in texture coordinates, each moved inwards a little: the faces of
-/// the volume, then the clips.
+/// Returns the planes that bound the remaining volume, in texture coordinates, each moved inwards slightly: the faces
+/// of the volume, then the clipping planes.
 std::vector<ClipPlane> boundsInTexture(const std::vector<ClipPlane>& planes, const Grid& grid) {
     constexpr double kInwards = 1e-9; // of how far the volume reaches along the normal
     const Mat4 world_from_texture = worldFromTexture(grid);
@@ -83,7 +83,7 @@ std::vector<ClipPlane> boundsInTexture(const std::vector<ClipPlane>& planes, con
     return bounds;
 }
 
-/// Whether anything of the volume is within all planes: what is bounded has a corner, where three of them meet.
+/// Returns true if a part of the volume is within all planes: a bounded part has a corner where three of them meet.
 bool leaveSomething(const std::vector<ClipPlane>& planes, const Grid& grid) {
     const std::vector<ClipPlane> bounds = boundsInTexture(planes, grid);
     constexpr double kRounding = 1e-12;
@@ -118,7 +118,7 @@ bool leaveSomething(const std::vector<ClipPlane>& planes, const Grid& grid) {
     return false;
 }
 
-/// Where the volume is along a clip's own measure, in words.
+/// Returns the range of the volume along a clipping plane's coordinate, as text.
 std::string whereItIs(const ClipOption& clip, const Grid& grid, const Vec3& normal, const ValueRange& reach) {
     const auto from = [](double lo, double hi) {
         return "from " + number(std::round(10 * lo) / 10) + " to " + number(std::round(10 * hi) / 10) + " mm";

@@ -18,7 +18,7 @@ struct ClipOption {
     ClipPlane plane{};
 };
 
-/// What is wrong with a text, or nothing.
+/// Returns the error of a text, if any.
 [[nodiscard]] std::optional<std::string> parseClip(const std::string& text, ClipOption& clip);
 
 /// Planes in world space. Refuses one that takes all of the volume away, and several that do together; says of one that

@@ -63,7 +63,7 @@ class EdgeHalver {
             middles[i] = middleOf(corners[i], corners[(i + 1) % 3]);
             halved += middles[i] != kNone ? 1 : 0;
         }
-        // Those that are halved first.
+        // Edges that are halved first.
         while (halved == 1 ? middles[0] == kNone : halved == 2 && middles[2] != kNone) {
             std::rotate(corners.begin(), corners.begin() + 1, corners.end());
             std::rotate(middles.begin(), middles.begin() + 1, middles.end());
@@ -112,7 +112,7 @@ MeshData halveLongEdges(MeshData mesh, double longest, std::size_t mostTriangles
     while (halver.halve(mostTriangles)) {
         vertices = mesh.positions.size();
     }
-    // Of a turn that was given up.
+    // Left by an abandoned round.
     mesh.positions.resize(vertices);
     return mesh;
 }

@@ -66,7 +66,7 @@ Box around(const Box& a, const Box& b) {
     return out;
 }
 
-/// Round all meshes at all poses.
+/// Bounding box of all meshes at all poses.
 std::optional<Box> boxOfMeshes(const RenderInputs& inputs) {
     std::optional<Box> all;
     for (const Box& bounds : inputs.bounds) {
@@ -103,7 +103,7 @@ Result<void> setCuts(const RenderOptions& options, RenderInputs& inputs) {
     if (options.slice) {
         std::optional<Box> first;
         if (!inputs.bounds.empty()) {
-            // The part of it that is in the volume, if there is one.
+            // The part of the mesh in the volume, if any.
             const Box mesh = transformBox(inputs.poses.front(), inputs.bounds.front());
             const Box volume = transformBox(worldFromTexture(inputs.volume.grid), {{0, 0, 0}, {1, 1, 1}});
             first = mesh;
@@ -144,7 +144,7 @@ Result<void> setLook(const RenderOptions& options, RenderInputs& inputs) {
     return {};
 }
 
-/// Where nothing is to be shown to touch, nobody needs to know.
+/// Without contacts to show, opacity notes do not matter.
 Result<void> noteOpacity(const RenderOptions& options, RenderInputs& inputs) {
     if (!options.show.what.empty()) {
         printOpacityNotes(inputs.transferFunction(options), inputs.values, options.transferFunction.threshold,

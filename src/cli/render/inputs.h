@@ -10,14 +10,14 @@
 
 namespace voxtact::app {
 
-/// What a picture is made of, read before there is a device.
+/// Inputs of a picture, read before a device is opened.
 struct RenderInputs {
     VolumeData volume;
     ValueRange values;
     std::vector<MeshData> meshes;       ///< as they are drawn
     std::vector<Box> bounds;            ///< of the meshes, in object space
     std::vector<Mat4> poses;            ///< those that are shown, of every mesh
-    std::vector<std::uint32_t> numbers; ///< of those poses
+    std::vector<std::uint32_t> numbers; ///< indices of these poses
     std::vector<ControlPoint> opacity;
     std::vector<ColourPoint> colours;
     ValueRange domain;
@@ -34,10 +34,10 @@ struct RenderInputs {
 
 [[nodiscard]] Result<RenderInputs> readRenderInputs(const RenderOptions& options);
 
-/// Of a mesh by its number.
+/// Returns the colour of a mesh by its index.
 [[nodiscard]] Colour meshColour(const RenderOptions& options, std::size_t mesh);
 
-/// What is written on the picture.
+/// Returns the text of the picture.
 [[nodiscard]] Annotation annotationOf(const RenderOptions& options, const RenderInputs& inputs,
                                       const std::optional<ValueRange>& window);
 

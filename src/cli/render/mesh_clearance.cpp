@@ -26,7 +26,7 @@ Colour toColour(const Rgb& rgb) {
     return {rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0};
 }
 
-/// What certainly touches is red, as with the other paints.
+/// Certain touches are red, as with the other paints.
 Colour colourOf(const Bounds& bounds, double maximum) {
     if (bounds.upper == 0) {
         return MeshPaint{}.contactColour;
@@ -34,7 +34,7 @@ Colour colourOf(const Bounds& bounds, double maximum) {
     return toColour(viridis(std::isfinite(bounds.upper) ? (bounds.lower + bounds.upper) / 2 / maximum : 1));
 }
 
-/// What everything is measured against.
+/// Host objects for all distances.
 struct HostScene {
     cpu::Volume volume;
     cpu::TransferFunction function;
@@ -106,7 +106,7 @@ Result<void> colourPoints(std::span<const Vec3> points, const HostScene& scene, 
     return {};
 }
 
-/// Of the vertices of one mesh, pose by pose.
+/// Returns the colours of one mesh's vertices, pose by pose.
 Result<std::vector<std::vector<Colour>>> coloursOf(const MeshData& mesh, const HostScene& scene, double maximum,
                                                    cpu::HostEngine& engine, bool progress) {
     const Places places = placesOf(mesh);
@@ -139,7 +139,7 @@ double scaleOf(const Mat4& pose) {
     return std::sqrt(squares / 3);
 }
 
-/// Where a point is in the picture; none behind the eye.
+/// Returns the position of a point in the picture; empty behind the eye.
 std::optional<Point> pixelOf(const Vec3& world, const Mat4& clip_from_world, const Canvas& canvas) {
     std::array<double, 4> clip{};
     for (std::size_t row = 0; row < 4; ++row) {
@@ -148,7 +148,7 @@ std::optional<Point> pixelOf(const Vec3& world, const Mat4& clip_from_world, con
             clip[row] += clip_from_world[4 * axis + row] * world[axis];
         }
     }
-    constexpr double kFarAway = 100; // pictures; beyond it there is nothing to be seen of it
+    constexpr double kFarAway = 100; // pictures; farther points are invisible
     const double x = clip[0] / clip[3];
     const double y = clip[1] / clip[3];
     if (!(clip[3] > 0 && std::abs(x) < kFarAway && std::abs(y) < kFarAway)) {

@@ -7,13 +7,13 @@
 
 #include <vector>
 
-/// Pictures of how far meshes are from what is opaque.
+/// Pictures of the distance of meshes from the opaque region.
 namespace voxtact::app {
 
-/// mm: what is as far away as that has the last colour, where nothing else is said.
+/// Default distance of the last colour, mm.
 inline constexpr double kDefaultShownClearance = 20;
 
-/// Of each mesh at each pose, mesh by mesh.
+/// Distances of each mesh at each pose, mesh by mesh.
 struct MeshClearance {
     double maximum = kDefaultShownClearance;  ///< mm, of the colours
     std::vector<std::vector<Colour>> colours; ///< of the vertices: by the clearance of each, as of a point
@@ -26,7 +26,7 @@ struct MeshClearance {
 /// On the host, by cpu::ClearanceMeter.
 [[nodiscard]] Result<MeshClearance> measureMeshes(const ShownPairs& pairs, double maximum, bool progress);
 
-/// What the colours mean: 0 to `maximum`.
+/// Returns the legend of the colours: 0 to `maximum`.
 [[nodiscard]] Legend clearanceLegend(double maximum);
 
 /// Draws the way between the closest points of each pair that has one, and how long it is.

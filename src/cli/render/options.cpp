@@ -15,8 +15,8 @@ namespace voxtact::app {
 namespace {
 
 constexpr const char* kRenderFooter =
-    R"(Ray casting; opacities are for 1 mm of material. --show uses the opacity of the
-picture: contacts and discarded by pixel, triangles certified.
+    R"(Ray casting; opacities apply to 1 mm of material. --show uses the picture's
+opacity: contacts and discarded by pixel, triangles certified.
 
 Examples:
   voxtact render --volume head.nii.gz --preset mr -o head.png
@@ -62,7 +62,7 @@ void addPoseOption(CLI::App& parser, RenderOptions& options) {
             return options.poses ? std::nullopt
                                  : std::optional<std::string>("is not all, nor numbers and ranges like 0,3,5-9");
         },
-        "numbers of --poses, from 0, like 0,3,5-9, or all; default: 0", "LIST");
+        "indices in --poses, like 0,3,5-9, or all; default: 0", "LIST");
 }
 
 std::vector<const char*> presetNames() {
@@ -100,7 +100,7 @@ void addCutOptions(CLI::App& parser, RenderOptions& options) {
             options.clips.push_back(std::move(clip));
             return wrong;
         },
-        "cut the volume: left, right, front, back, top, bottom at MM in LPS, near, or NX,NY,NZ,D; up to 6 times",
+        "cut the volume: left, right, front, back, top, bottom (MM in LPS), near, or NX,NY,NZ,D; up to 6 times",
         "SIDE[:MM]");
     parser.add_flag("--clip-mesh", options.clipMesh, "apply --clip to meshes, too");
     parser.get_option("--clip-mesh")->needs("--clip");
@@ -127,7 +127,7 @@ void addAnnotationOptions(CLI::App& parser, RenderOptions& options) {
         "--annotate", [&options] { options.annotate = true; },
         "title, sides, scale and legend; default: from 320x320 on");
     parser.add_flag_callback(
-        "--no-annotate", [&options] { options.annotate = false; }, "write nothing on the picture");
+        "--no-annotate", [&options] { options.annotate = false; }, "omit title, sides, scale and legend");
     parser.get_option("--no-annotate")->excludes("--annotate");
     parser.add_option("--title", options.title, "title; default: the volume and the view")
         ->type_name("TEXT")
@@ -161,9 +161,9 @@ void addRenderOptions(CLI::App& parser, RenderOptions& options) {
     addCameraOptions(parser, options.view);
     addPoseOption(parser, options);
     addName(parser, "--view", options.viewName, {"front", "back", "left", "right", "top", "bottom"},
-            "front, back, left, right, top or bottom; default: front");
-    addDegrees(parser, "--azimuth", options.azimuth, "of the eye: 0 front, 90 left, 180 back");
-    addDegrees(parser, "--elevation", options.elevation, "of the eye: 90 top, -90 bottom");
+            "front, back, left, right, top, bottom; default: front");
+    addDegrees(parser, "--azimuth", options.azimuth, "azimuth of the eye: 0 front, 90 left, 180 back");
+    addDegrees(parser, "--elevation", options.elevation, "elevation of the eye: 90 top, -90 bottom");
     addLookOptions(parser, options);
     addShowOptions(parser, options.show);
     addCutOptions(parser, options);

@@ -14,7 +14,7 @@
 
 namespace voxtact::app {
 
-/// Which of the poses a picture shows.
+/// The poses of a picture.
 struct PoseChoice {
     bool all = false;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> ranges; ///< first and last; empty: the first pose
@@ -46,18 +46,18 @@ struct RenderOptions {
 };
 
 void addRenderOptions(CLI::App& parser, RenderOptions& options);
-/// What a parser cannot see.
+/// Checks that the parser cannot make.
 [[nodiscard]] Result<void> checkRenderOptions(const RenderOptions& options);
 
-/// What is given, and has no effect on this picture. `annotated`: something is written on it.
+/// Returns notes on options without effect on this picture. `annotated`: the picture has text.
 [[nodiscard]] std::vector<std::string> unusedNotes(const RenderOptions& options, bool annotated);
 
-/// The numbers of the chosen poses, of so many.
+/// Returns the indices of the chosen poses.
 [[nodiscard]] Result<std::vector<std::uint32_t>> chosenPoses(const std::optional<PoseChoice>& choice,
                                                              std::size_t poses);
-/// Whether the picture is annotated.
+/// Returns true if the picture is annotated.
 [[nodiscard]] bool isAnnotated(const RenderOptions& options);
-/// Where the eye is, when no camera says it.
+/// Returns the position of the eye without a camera.
 [[nodiscard]] ViewDirection directionOf(const RenderOptions& options);
 
 } // namespace voxtact::app

@@ -17,7 +17,7 @@ constexpr double kMiddle = 0.5; // of the depth
 /// A letter on a side of the cube, which goes from its middle by `right` and `up`, either way.
 void drawOnSide(Canvas& canvas, const char* letter, const Point& middle, const Point& right, const Point& up,
                 const Colour& ink) {
-    // Looked up in a mask that is finer than the picture.
+    // Size of a mask finer than the picture.
     constexpr double kSize = 96;
     const double width = textWidth(letter, kSize);
     const Mask mask = textMask(letter, kSize, {0, 0});

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-/// Where the patient's sides are in a picture.
+/// Directions of the patient's sides in a picture.
 namespace voxtact::app {
 
 /// Directions of world space, of unit length, in the middle of a picture.
@@ -16,7 +16,7 @@ struct ScreenAxes {
     Vec3 towardsEye{};
 };
 
-/// Nothing of a camera that cannot be inverted.
+/// Empty for a camera that cannot be inverted.
 [[nodiscard]] std::optional<ScreenAxes> screenAxes(const Mat4& clip_from_world);
 /// Millimetres of a pixel; nothing where they are not the same everywhere: in perspective, or where pixels are not
 /// square.

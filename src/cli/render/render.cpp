@@ -45,7 +45,7 @@ Result<Picture> renderSlice(const RenderOptions& options, const RenderInputs& in
     scene.window = window;
     scene.background = options.background;
     scene.threshold = options.transferFunction.threshold;
-    // Of a picture as large as a screen; finer where it is smaller.
+    // Pixels per outline in a picture of a screen's size; finer in smaller ones.
     constexpr double kPixelsOfOutline = 300;
     scene.thickness = std::max(1.0, std::min(options.view.size.width, options.view.size.height) / kPixelsOfOutline);
     std::vector<std::vector<std::uint32_t>> touching(inputs.meshes.size() * inputs.poses.size());
@@ -86,7 +86,7 @@ Result<Picture> renderVolume(const RenderOptions& options, const RenderInputs& i
     return picture;
 }
 
-/// What is over the picture, and then the file.
+/// Draws the annotations, then writes the file.
 Result<void> finish(const RenderOptions& options, const RenderInputs& inputs, const std::optional<ValueRange>& window,
                     Picture& picture) {
     if (inputs.clearance) {
@@ -123,7 +123,7 @@ Outcome runRender(const RenderOptions& options) {
     }
     const InterruptGuard guard; // a signal before leaves nothing behind either
     const Outcome outcome = drawAndWrite(options, *inputs);
-    // Else the file was complete before the signal.
+    // Otherwise the file was complete before the signal.
     return interrupted() && outcome.status != kExitDone ? interruptOutcome("nothing is written") : outcome;
 }
 

@@ -72,7 +72,7 @@ void addShowOptions(CLI::App& parser, ShowOptions& options) {
         [](double part) { return part >= 0 && part <= 1; }, "from 0 to 1", "");
     addNumber(
         parser, "--max-distance", [&options](double mm) { options.maximum = mm; },
-        "with --show distance: mm of the last colour", [](double mm) { return mm > 0; }, "above 0", "20");
+        "--show distance: distance of the last colour, mm", [](double mm) { return mm > 0; }, "above 0", "20");
     parser.get_option("--max-distance")->needs("--show");
     static_assert(kDefaultShownClearance == 20, "as the help says");
     parser.get_option("--show")->needs("--mesh");

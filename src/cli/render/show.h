@@ -17,7 +17,7 @@ class App;
 
 namespace voxtact::app {
 
-/// What is painted on the mesh.
+/// Paint options of the mesh.
 struct ShowOptions {
     std::string what; ///< empty: nothing
     std::optional<double> through;
@@ -29,14 +29,14 @@ struct ShowOptions {
 /// --show, --through and --max-distance, and that they and --opacity-threshold need what they are about. After those
 /// options.
 void addShowOptions(CLI::App& parser, ShowOptions& options);
-/// What the parser cannot see.
+/// Checks that the parser cannot make.
 [[nodiscard]] Result<void> checkShowOptions(const ShowOptions& options);
 
 /// The triangles that touch for certain, by the projection certified on the host: of each mesh at each pose, mesh by
 /// mesh.
 [[nodiscard]] Result<std::vector<std::vector<std::uint32_t>>> touchingTriangles(const ShownPairs& pairs, bool progress);
 
-/// What MeshPaints refer to. Must outlive the picture.
+/// Objects that MeshPaints reference. Must outlive the picture.
 struct ShowObjects {
     std::optional<TransferFunction> transferFunction{};
     std::vector<PaintedTriangles> triangles{}; ///< of each mesh at each pose, mesh by mesh
@@ -48,7 +48,7 @@ struct ShowObjects {
                                                   const std::optional<MeshClearance>& clearance, bool progress,
                                                   const device::Session& session, const Renderer& renderer);
 
-/// Of a mesh at a pose, by its number among all.
+/// Returns the paint of a mesh at a pose, by its index.
 [[nodiscard]] MeshPaint paintOf(const ShowOptions& options, const ShowObjects& objects, double threshold,
                                 std::size_t number);
 

@@ -7,7 +7,7 @@
 
 namespace voxtact::app {
 
-/// What is shown, as a detector has it: every mesh at every pose.
+/// The shown pairs, as for a detector: every mesh at every pose.
 struct ShownPairs {
     const VolumeData& volume;
     std::span<const MeshData> meshes;

@@ -195,7 +195,7 @@ template <class Voxel> class SliceMaker {
         const Point b = pixelOf(to);
         const double pixels = std::hypot(b.x - a.x, b.y - a.y);
         const double reach = std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y)});
-        constexpr double kFarAway = 1e5; // of what is drawn, all is in the picture or next to it
+        constexpr double kFarAway = 1e5; // pictures: farther geometry is not drawn
         if (!(reach < kFarAway)) {
             return;
         }
@@ -250,7 +250,7 @@ Result<SlicePlane> slicePlane(const SliceOption& slice, const ViewDirection& vie
     SlicePlane plane;
     plane.direction = one != nullptr ? one->direction : view;
     plane.towardsEye = towardsEye(plane.direction);
-    // What --slice counts: the coordinate of the world, or from the volume's middle towards the eye.
+    // Coordinate of --slice: of the world, or from the volume's middle towards the eye.
     const Vec3 middle = transformPoint(worldFromTexture(grid), {0.5, 0.5, 0.5});
     const double sign = one != nullptr && plane.towardsEye[one->axis] < 0 ? -1 : 1;
     const double zero = one != nullptr ? 0 : dot(plane.towardsEye, middle);
@@ -298,7 +298,7 @@ Result<Picture> makeSlice(const SliceScene& scene, VkExtent2D size) {
 }
 
 ValueRange usualWindow(const VolumeView& volume, const ValueRange& values) {
-    constexpr std::size_t kMost = 1 << 20; // of the voxels, every so many-th
+    constexpr std::size_t kMost = 1 << 20; // maximum number of sampled voxels
     constexpr double kDark = 0.005;
     constexpr double kBright = 0.997;
     std::vector<double> seen;

@@ -21,7 +21,7 @@ struct SliceOption {
     std::optional<double> at; ///< mm
 };
 
-/// What is wrong with a text, or nothing.
+/// Returns the error of a text, if any.
 [[nodiscard]] std::optional<std::string> parseSlice(const std::string& text, SliceOption& slice);
 
 /// A plane of world space, as the eye sees it.
@@ -43,7 +43,7 @@ struct SliceMesh {
     Mat4 world_from_object{};
     Colour colour{};
     std::span<const std::uint32_t> touching{}; ///< triangles in the contact colour
-    std::span<const Colour> vertices{};        ///< colours of the vertices; none: all of it has its colour
+    std::span<const Colour> vertices{};        ///< colours of the vertices; none: one colour
 };
 
 struct SliceScene {
@@ -53,8 +53,8 @@ struct SliceScene {
     ValueRange window{};    ///< from black to white
     Colour background{};
     std::vector<SliceMesh> meshes;
-    /// With it what has at least the threshold is tinted, and outlines are in the contact colour there, elsewhere in
-    /// `elsewhere` or the mesh's own.
+    /// Tints values at or above the threshold; there outlines have the contact colour, elsewhere `elsewhere` or the
+    /// mesh's own.
     std::optional<TransferFunctionDesc> transferFunction;
     double threshold = 0;
     Colour contactColour = MeshPaint{}.contactColour;
@@ -64,7 +64,7 @@ struct SliceScene {
 
 [[nodiscard]] Result<Picture> makeSlice(const SliceScene& scene, VkExtent2D size);
 
-/// From the darkest to the brightest of nearly all voxels.
+/// Returns the range from dark to bright of nearly all voxels.
 [[nodiscard]] ValueRange usualWindow(const VolumeView& volume, const ValueRange& values);
 
 } // namespace voxtact::app

@@ -7,7 +7,7 @@
 
 namespace voxtact {
 
-// Each refuses a number that is none of the enumeration's, and says which.
+// Refuse a number that the enumeration does not have, and name it.
 [[nodiscard]] Result<void> checkProjection(Projection projection);
 [[nodiscard]] Result<void> checkFilter(Filter filter);
 [[nodiscard]] Result<void> checkBoundary(Boundary boundary);

@@ -77,7 +77,7 @@ ExactNumber::ExactNumber(bool negative, std::int64_t exponent, Words words)
     words_.erase(words_.begin(), first);
 }
 
-/// As a multiple of an exponent that is not above this one's.
+/// The mantissa for an exponent that is at most this one's.
 ExactNumber::Words ExactNumber::wordsFrom(std::int64_t exponent) const {
     Words out(static_cast<std::size_t>(exponent_ - exponent), 0);
     out.insert(out.end(), words_.begin(), words_.end());

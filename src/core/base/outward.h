@@ -5,7 +5,7 @@
 
 namespace voxtact {
 
-/// A lower or an upper bound to so many parts of a whole: what was one still is.
+/// Widens a lower or upper bound relatively; the result is still a bound.
 [[nodiscard]] inline double lowerRounded(double value, double parts) {
     return std::floor(value * parts) / parts;
 }

@@ -8,7 +8,7 @@
 
 namespace voxtact {
 
-/// What a caller gave cannot be used; `text` says which argument, why, and what to do.
+/// Returns InvalidArgument; `text` names the argument, the reason and the fix.
 [[nodiscard]] inline Error refuse(std::string text) {
     return Error{ErrorCode::InvalidArgument, 0, std::move(text)};
 }

@@ -6,8 +6,8 @@
 
 namespace voxtact {
 
-/// Of the Impl of an object that others are made with: they keep it, by shared_from_this(), when the object ends. The
-/// object's own pointer stands for a share that the Impl holds of itself, and lets go of that instead of deleting.
+/// Base of an Impl that other objects share by shared_from_this() after its object ends. The object's own pointer
+/// stands for a share that the Impl holds of itself, and releases that instead of deleting.
 template <class Impl> class SharedImpl : public std::enable_shared_from_this<Impl> {
   public:
     /// The pointer for the object.
@@ -15,7 +15,7 @@ template <class Impl> class SharedImpl : public std::enable_shared_from_this<Imp
         impl->self_ = impl;
         return std::unique_ptr<Impl>(impl.get());
     }
-    /// For the object's destructor, and before it is assigned to. There may be nothing behind the pointer.
+    /// For the object's destructor, and before assignment to it. The pointer may be null.
     static void letGo(std::unique_ptr<Impl>& pointer) noexcept {
         if (Impl* impl = pointer.release(); impl != nullptr) {
             const std::shared_ptr<Impl> share = std::move(impl->self_);

@@ -6,8 +6,7 @@
 
 namespace voxtact {
 
-/// A text that is written piece by piece. Throws where there is no memory for a piece; a std::ostringstream leaves it
-/// out and goes on.
+/// Collects text piece by piece. Throws if memory runs out; std::ostringstream would drop the piece and continue.
 class TextStream : public std::ostringstream {
   public:
     TextStream() { exceptions(std::ios::badbit); }

@@ -16,7 +16,7 @@ namespace voxtact {
     return std::ranges::find(whole, std::filesystem::path("..")) == whole.end() ? whole.lexically_normal() : whole;
 }
 
-/// The same without links, as far as there is something.
+/// Resolves links in the existing part of a path.
 [[nodiscard]] inline std::filesystem::path realPath(const std::filesystem::path& path) {
     const std::filesystem::path whole = wholePath(path);
     std::error_code failed;

@@ -11,20 +11,20 @@
 #include <array>
 #include <limits>
 
-/// What every batch must be, for the device's detector and the host's alike.
+/// Checks common to the batches of device and host.
 namespace voxtact {
 
-/// Width and height of a viewport; 64 bits, so that what is asked for can be beyond every limit.
+/// Width and height of a viewport; 64 bits, so that a request may exceed every limit.
 using WideExtent = std::array<std::uint64_t, 2>;
 
-/// What one side, device or host, asks beyond that.
+/// Limits of one side, device or host.
 template <class Side, class Item>
 concept BatchSide = requires(const Side& side, const Item& item, const WideExtent& extent, const std::string& text) {
-    /// Whether it has viewports so large. `text` begins the error and says how large.
+    /// Checks the size of a viewport. `text` begins the error and states the size.
     { side.checkExtent(extent, text) } -> std::same_as<Result<void>>;
     /// An item whose parts are not null. `text` says which it is.
     { side.checkItem(item, text) } -> std::same_as<Result<void>>;
-    /// Whether areSingle() of a checked item's constants.
+    /// True if areSingle() holds for the constants of a checked item.
     { side.holdsValues(item) } -> std::same_as<bool>;
 };
 
@@ -42,7 +42,7 @@ template <class View, class Side> Result<void> checkView(const View& view, const
     return {};
 }
 
-/// Of an item: those in host memory, or on the device.
+/// Number of an item's poses, in host memory or on the device.
 template <class Item> std::size_t pairsOf(const Item& item) {
     if constexpr (requires { item.pairs(); }) {
         return item.pairs();
@@ -63,7 +63,7 @@ template <class Item> Result<void> checkPoses(const Item& item, const std::strin
 
 } // namespace detail
 
-/// One of a batch's items, which errors call `which`.
+/// Checks one item of a batch, which errors call `which`.
 template <class Item, class Side>
 Result<void> checkBatchItem(const ProjectionRow& projection, std::uint32_t samplesPerVoxel, const Item& item,
                             const std::string& which, const Side& side) {

@@ -6,15 +6,14 @@
 
 namespace voxtact {
 
-/// How much to do at a time: little at first, so that the first results come soon, then as much as takes about a tenth
-/// of a second.
+/// Chooses the size of the next piece: small at first, for early results, then about a tenth of a second.
 class BatchPace {
   public:
     /// `fixed`: always `most`.
     BatchPace(std::uint32_t most, bool fixed) : most_(most), fixed_(fixed), size_(fixed ? most : std::min(most, 16U)) {}
 
     [[nodiscard]] std::uint32_t size() const noexcept { return size_; }
-    /// So many took so long.
+    /// Reports the duration of a piece of this size.
     void took(std::uint32_t done, double milliseconds) noexcept {
         constexpr double kShort = 50;
         constexpr double kLong = 200;

@@ -9,9 +9,9 @@
 
 namespace voxtact {
 
-/// What the outputs need of a pair, labels and places in the outputs buffer aside: the same for all pairs of an item,
-/// and the same numbers for device and host. `item` is that of the exact filter; value = valueScale * stored +
-/// valueBias. Expects a positive maxDepth where contacts are asked for.
+/// Returns the constants of a pair for the outputs, without labels and buffer offsets: the same for all pairs of an
+/// item, and the same numbers on device and host. `item` is that of the exact filter; value = valueScale * stored +
+/// valueBias. Expects a positive maxDepth if contacts are requested.
 [[nodiscard]] shader::OutputPair outputPair(const Grid& grid, const Mat4& texture_from_world,
                                             const shader::ItemConstants& item, double valueScale, double valueBias,
                                             const Outputs& outputs);
@@ -20,8 +20,7 @@ namespace voxtact {
 void addLabelMap(shader::OutputPair& pair, const Grid& grid, const Grid& labelGrid,
                  std::span<const std::int32_t> values);
 
-/// Refuses outputs of what stops at the first survivor, and, where contacts are asked for, a maximal depth that is not
-/// a positive number.
+/// Refuses outputs with early exit and, for contacts, a maximum depth that is not a positive number.
 [[nodiscard]] Result<void> checkOutputs(const Outputs& outputs, bool stopAtFirst);
 
 /// Refuses labels that makeLabels() would not make, their indices aside. O(labels).

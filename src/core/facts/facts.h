@@ -15,18 +15,18 @@
 #include <string>
 #include <string_view>
 
-/// The table of facts: each number that a question takes, once. The engines check by it, and the program makes its
-/// options, their help and their errors from it.
+/// The table of facts: name, unit, range, default and text of each number of a question. The engines check numbers
+/// against it; the program generates its options, their help and their errors from it.
 namespace voxtact {
 
 /// A number of a question.
 struct Fact {
-    std::string_view question;        ///< as the program's subcommand; "scene": of every question
+    std::string_view question;        ///< subcommand of the program; "scene": all questions
     std::string_view name;            ///< words joined by '_'
     std::string_view unit;            ///< "mm", "mm^2", "mm^3", "degrees", "voxels"; empty: none
     double min = 0;                   ///< smallest value
-    double max = kInfinity;           ///< largest value, which is allowed if it is finite
-    std::optional<double> standard{}; ///< the default; nothing: the number is optional
+    double max = kInfinity;           ///< largest value, included if finite
+    std::optional<double> standard{}; ///< the default; none: the number is optional
     std::string_view text;            ///< one line of --help
     bool isMinAllowed = true;
     bool isInfinityAllowed = false;
@@ -38,7 +38,7 @@ inline constexpr std::array kFacts{
     Fact{"touch", "uncertainty_distance", "mm", 0, kInfinity, {}, ""},
     Fact{"touch", "uncertainty_angle", "degrees", 0, 180, {}, ""},
     Fact{"count", "resolution", "voxels", 0x1p-12, 1, kDefaultResolution,
-         "certified: length of undivided pieces of triangles, voxels"},
+         "certified: minimum size of pieces of triangles, voxels"},
     Fact{"count", "max_depth", "mm", 0, kInfinity, kDefaultMaxDepth, "contacts: maximum depth, mm", false},
     Fact{"distance", "tolerance", "mm", 1e-6, kInfinity, kDefaultTolerance,
          "stop when upper - lower is at most this, mm"},
@@ -59,12 +59,12 @@ inline constexpr std::array kFacts{
          {},
          "stop when lower reaches this, mm; default: enough to rank the paths",
          false},
-    Fact{"plan", "margin", "mm", 0, kInfinity, 0, "distance of a safe path from the obstacles, mm"},
+    Fact{"plan", "margin", "mm", 0, kInfinity, 0, "safe distance from the obstacles, mm"},
     Fact{"plan", "max_length", "mm", 0, kInfinity, {}, "maximum length of a path, mm", false},
-    Fact{"plan", "max_angle", "degrees", 0, 90, {}, "maximum angle to the normal of the entry surface, degrees"},
+    Fact{"plan", "max_angle", "degrees", 0, 90, {}, "maximum angle to the normal of the entry, degrees"},
 };
 
-/// The fact of a question; a name that is not in the table does not compile.
+/// Returns a fact; a name that is not in the table does not compile.
 consteval const Fact& factOf(std::string_view question, std::string_view name) {
     for (const Fact& fact : kFacts) {
         if (fact.question == question && fact.name == name) {
@@ -76,7 +76,7 @@ consteval const Fact& factOf(std::string_view question, std::string_view name) {
 
 /// Returns the range as text: "from 1e-06 mm on", "above 0 mm", "from 0 to 180 degrees".
 [[nodiscard]] std::string rangeText(const Fact& fact);
-/// Whether the value is in the range.
+/// Returns true if the value is in the range.
 [[nodiscard]] bool isInRange(const Fact& fact, double value) noexcept;
 /// Refuses a value outside the range: "the tolerance 0 mm is not a number from 1e-06 mm on".
 [[nodiscard]] Result<void> checkFact(const Fact& fact, double value);

@@ -80,13 +80,13 @@ std::vector<Swept> sweepOrder(std::span<const Box> boxes, std::size_t axis) {
     return order;
 }
 
-/// Which of the boxes that begin within a box, along the axis, meet it.
+/// Finds the boxes that begin within a box, along the axis, and meet it.
 class Meeting {
   public:
     explicit Meeting(std::size_t most) : met_(most) {}
 
-    /// Those of `others`, which are in order and begin no earlier than `box`. Valid until the next call. Without
-    /// branches on what meets: that is twice as fast where many do.
+    /// Returns those of `others` that meet `box`; they are sorted and begin no earlier. Valid until the next call.
+    /// Branchless, which is twice as fast if many meet.
     std::span<const std::uint32_t> with(const Swept& box, std::span<const Swept> others) {
         std::size_t count = 0;
         for (std::size_t i = 0; i < others.size() && others[i].lo <= box.hi; ++i) {
@@ -100,7 +100,7 @@ class Meeting {
     }
 
   private:
-    std::vector<std::uint32_t> met_; ///< as many as there may be at all
+    std::vector<std::uint32_t> met_; ///< as large as the maximum result
 };
 
 /// Sorts by counting the pairs of each first box, of which there are `boxes`; then the few of each by their second.
@@ -116,7 +116,7 @@ void sortPairs(std::vector<BoxPair>& pairs, std::size_t boxes) {
     for (const BoxPair& pair : pairs) {
         sorted[ends[pair.first]++] = pair;
     }
-    // Each place has moved on to where the next one began.
+    // Each position now holds the start of the next one.
     std::size_t begin = 0;
     for (std::size_t i = 0; i < boxes; ++i) {
         std::sort(sorted.begin() + static_cast<std::ptrdiff_t>(begin),
@@ -157,7 +157,7 @@ Result<void> checkCount(std::size_t boxes) {
     return {};
 }
 
-// What follows is directed rounding by error terms: exact operations stay exact, so that boxes that touch still touch.
+// Directed rounding by error terms: exact operations stay exact, so boxes that touch still touch.
 
 /// Below that the error term of a product may underflow itself.
 constexpr double kSmallestProduct = 0x1p-960;

@@ -10,7 +10,7 @@
 namespace voxtact {
 
 inline constexpr std::uint32_t kClusterTriangles = 64;
-/// Each run of this many triangles of a cluster, from its first on, is near each other, too.
+/// Runs of this many triangles of a cluster, from its first on, are close together, too.
 inline constexpr std::uint32_t kRunTriangles = 16;
 
 /// Triangles that are near each other. Its triangles are consecutive in MeshClusters::triangles, its vertices in

@@ -78,7 +78,7 @@ Result<void> checkGrid(const Grid& grid) {
                           " mm, it must be within " + number(kMaxSpacing));
         }
     }
-    // So that no number of bytes is more than 64 bits hold.
+    // So that byte counts fit into 64 bits.
     constexpr std::uint64_t kMostVoxels = std::uint64_t{1} << 56U;
     if (std::uint64_t{grid.size[0]} * grid.size[1] > kMostVoxels / grid.size[2]) {
         return refuse("the image has more than 2^56 voxels");

@@ -11,7 +11,7 @@ namespace voxtact {
 
 namespace {
 
-/// An undirected edge as one triangle has it: `up` is 1 from `a` to `b`, -1 the other way.
+/// An undirected edge of a triangle: `up` is 1 from `a` to `b`, -1 in the other direction.
 struct Edge {
     std::uint32_t a = 0;
     std::uint32_t b = 0;
@@ -34,8 +34,8 @@ std::vector<Edge> edgesOf(std::span<const std::uint32_t> indices) {
     return edges;
 }
 
-/// Directed edges by the vertex that they begin at. Each vertex ends as many as it begins: triangles have loops for
-/// edges, and so do sums of them.
+/// Directed edges by their first vertex. At each vertex as many edges end as begin: the edges of a triangle are a loop,
+/// and so are sums of loops.
 class LoopWalk {
   public:
     explicit LoopWalk(std::vector<std::array<std::uint32_t, 2>> directed) : directed_(std::move(directed)) {

@@ -13,12 +13,12 @@ namespace voxtact {
 /// A side of the patient.
 struct PatientSide {
     const char* letter; ///< L left, R right, P posterior, A anterior, S superior, I inferior
-    const char* view;   ///< directionNamed() of it looks at this side
+    const char* view;   ///< name of the view of this side, for directionNamed()
     Vec3 normal;        ///< where it lies
     Vec3 up;            ///< how its letter stands: upright as a patient does; above and below with the face at the top
 };
 
-/// By axis, the positive one first.
+/// By axis, the positive side first.
 inline constexpr std::array<PatientSide, 6> kPatientSides{{{"L", "left", {1, 0, 0}, {0, 0, 1}},
                                                            {"R", "right", {-1, 0, 0}, {0, 0, 1}},
                                                            {"P", "back", {0, 1, 0}, {0, 0, 1}},
@@ -30,7 +30,7 @@ inline constexpr std::array<PatientSide, 6> kPatientSides{{{"L", "left", {1, 0, 
     return kPatientSides[2 * axis + (negative ? 1 : 0)];
 }
 
-/// How far the corners of the cube are from its middle at most, in half edges: sqrt(3), and a little room.
+/// Maximum distance of the cube's corners from its middle, in half edges: sqrt(3), plus a margin.
 inline constexpr double kCubeReach = 1.75;
 
 /// A side of the cube that the eye sees. Places are to the right and down in a picture, in half edges of the cube.
@@ -42,7 +42,7 @@ struct SeenSide {
     std::array<double, 2> up{};     ///< the same
 };
 
-/// Those that an eye sees, which do not cover each other. Directions of world space, of unit length and at right
+/// Returns the visible sides, which do not occlude each other. Arguments are unit vectors of world space at right
 /// angles: to the picture's right and up.
 [[nodiscard]] inline std::vector<SeenSide> seenSides(const Vec3& right, const Vec3& up) {
     const auto dot = [](const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };

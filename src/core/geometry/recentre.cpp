@@ -10,7 +10,7 @@ namespace voxtact {
 
 namespace {
 
-/// How far a float is from value - offset. The difference is rounded to a double first, and not lost.
+/// Returns the distance of a float from value - offset, including the rounding of the difference to double.
 double roundingOf(double value, double offset, double difference, float rounded) {
     const double back = difference + offset;
     const double lost = std::abs((value - back) - ((difference - back) + offset));

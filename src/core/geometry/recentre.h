@@ -10,7 +10,7 @@
 
 namespace voxtact {
 
-/// Where the floats of a mesh are: a vertex is its float position plus the offset, object space.
+/// Origin of a mesh's floats: a vertex is its float position plus the offset, object space.
 struct MeshOrigin {
     Vec3 offset{};
     double rounding = 0; ///< object units: no vertex is farther from there
@@ -35,7 +35,7 @@ struct Recentred {
 /// Rounds the positions less the offset. Returns MeshOrigin::rounding.
 [[nodiscard]] double roundPositions(std::span<const double> positions, const Vec3& offset, std::vector<float>& out);
 
-/// What checkMesh() accepts, and its vertices as floats. MeshFacts::degenerate is of these.
+/// Facts of checkMesh(), and the vertices as floats. MeshFacts::degenerate refers to the floats.
 struct CheckedMesh {
     MeshFacts facts;
     MeshOrigin origin;
@@ -44,12 +44,12 @@ struct CheckedMesh {
 /// Refuses what checkMesh() refuses.
 [[nodiscard]] Result<CheckedMesh> checkedMesh(const MeshView& mesh);
 
-/// As the text that is shared with shaders has it.
+/// In the form that shaders share.
 [[nodiscard]] inline shader::PairOrigin toPairOrigin(const MeshOrigin& origin) noexcept {
     return {{origin.offset[0], origin.offset[1], origin.offset[2]}, origin.rounding};
 }
 
-/// Where a pose takes the floats of a mesh; without an offset the pose itself.
+/// Returns the pose of the floats of a mesh; without an offset, the pose itself.
 [[nodiscard]] Mat4 worldFromFloats(const Mat4& world_from_object, const MeshOrigin& origin) noexcept;
 
 } // namespace voxtact

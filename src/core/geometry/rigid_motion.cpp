@@ -67,7 +67,7 @@ Mat4 poseOf(const RigidMotion& motion, double parameter) {
     return toMat4(shader::rigidMatrix(shader::rigidPose(motion.way(), parameter)));
 }
 
-/// Of three numbers, which are a vector.
+/// Magnitude of a vector of three numbers.
 void setTerms(shader::RigidWay& way, std::size_t first, const std::array<dvec3, RIGID_TERMS>& terms) {
     for (std::size_t row = 0; row < 3; ++row) {
         for (std::size_t term = 0; term < RIGID_TERMS; ++term) {
@@ -189,16 +189,16 @@ double RigidMotion::deformation(const Box& box) const {
     forCorners(box, [&](const dvec3& corner) {
         most = std::max(most, glm::length(dvec3(deformation_ * glm::dvec4(corner, 1))));
     });
-    // It moves what turns, and so changes velocity and acceleration.
+    // The centre moves, which changes velocity and acceleration.
     return (1 + angle_ + angle_ * angle_) * most;
 }
 
 double RigidMotion::rounding(const Box& box) const {
-    constexpr double kPoseError = 0x1p-46; // of the largest coordinate: a pose is made of a few dozen operations
+    constexpr double kPoseError = 0x1p-46; // of the largest coordinate: the rounding of a few dozen operations
     return kPoseError * magnitude(box);
 }
 
-/// No coordinate of a point of a box on the way, nor a term of one, is larger, mm.
+/// Upper bound, mm, of the coordinates of a box on the way, and of their terms.
 double RigidMotion::magnitude(const Box& box) const {
     double most = largestCoordinate(centre_) + glm::length(along_) + (1 + angle_) * glm::length(across_);
     forCorners(box, [&](const dvec3& corner) {

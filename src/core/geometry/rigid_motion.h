@@ -20,7 +20,7 @@ class RigidMotion {
     /// `which` names the poses in an error.
     [[nodiscard]] static Result<RigidMotion> between(const Mat4& from, const Mat4& to, Interpolation interpolation,
                                                      const Vec3& centre, const std::string& which);
-    /// From one of a batch item's poses to the next. `bounds`: of the mesh, object space.
+    /// Creates the motion between two poses of a batch item. `bounds`: of the mesh, object space.
     [[nodiscard]] static Result<RigidMotion> between(std::span<const Mat4> poses, std::size_t first,
                                                      Interpolation interpolation, const Box& bounds, std::size_t item);
 
@@ -30,9 +30,9 @@ class RigidMotion {
     /// rigidPose() of the way.
     [[nodiscard]] Mat4 at(double parameter) const;
 
-    /// How the motion goes on from a parameter. The velocity of what is at x is linear * x + offset, mm for the whole
-    /// parameter; within a step s it goes no farther off its tangent than s^2 / 2 * angle() times its speed without
-    /// `straight`: both motions have a constant acceleration.
+    /// Velocity from a parameter on: linear * x + offset for a point at x, mm per unit of the parameter. Within a step
+    /// s a point deviates from its tangent by at most s^2 / 2 * angle() times its speed without `straight`, because
+    /// both motions have a constant acceleration.
     struct Tangent {
         glm::dmat3 linear{0};
         glm::dvec3 offset{};
@@ -40,11 +40,11 @@ class RigidMotion {
     };
     [[nodiscard]] Tangent tangent(double parameter) const;
     [[nodiscard]] double angle() const noexcept { return angle_; } ///< radians, 0 to pi
-    /// No point of a box of object space moves faster, mm for the whole parameter.
+    /// Upper bound of the speed of points in a box of object space, mm per unit of the parameter.
     [[nodiscard]] double speed(const Box& box) const;
-    /// What a point of such a box is off the tangent's velocity, mm for the whole parameter: what is no rigid motion.
+    /// Upper bound of the deviation from the tangent's velocity by non-rigidity, mm per unit of the parameter.
     [[nodiscard]] double deformation(const Box& box) const;
-    /// What a point of such a box on the way is rounded by, mm.
+    /// Upper bound of the rounding of a point's position on the way, mm.
     [[nodiscard]] double rounding(const Box& box) const;
 
   private:

@@ -27,7 +27,7 @@ Vec3 cross(const Vec3& a, const Vec3& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// From the middle of the box, so that little cancels out.
+/// From the middle of the box, against cancellation.
 double signedVolume(const MeshView& mesh, const Box& bounds) {
     Vec3 middle{};
     for (std::size_t axis = 0; axis < 3; ++axis) {

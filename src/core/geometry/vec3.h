@@ -29,7 +29,7 @@ namespace voxtact {
     return std::sqrt(dot(a, a));
 }
 
-/// Of length 1; not a number where `a` is zero.
+/// Returns a unit vector; NaN if `a` is zero.
 [[nodiscard]] inline Vec3 unit(const Vec3& a) {
     const double size = length(a);
     return {a[0] / size, a[1] / size, a[2] / size};

@@ -9,7 +9,7 @@
 
 namespace voxtact {
 
-/// A matrix as the text that is shared with shaders has it.
+/// Returns a matrix in the form that shaders share.
 [[nodiscard]] inline shader::WideMatrix toWide(const Mat4& matrix) noexcept {
     shader::WideMatrix out;
     std::copy(matrix.begin(), matrix.end(), out.element);

@@ -17,7 +17,7 @@ namespace voxtact {
 
 namespace {
 
-/// Of the terms of an element of the product of the grid's matrix and its inverse: by what it may be off.
+/// Relative to the terms of an element of the grid's matrix times its inverse: the maximum error.
 constexpr double kInverseError = 0x1p-49;
 /// The world's axis that a grid's axis is along.
 struct WorldAxis {
@@ -25,7 +25,7 @@ struct WorldAxis {
     double sign = 1;
 };
 
-/// Where the grid's axes are those of the world, in another order or direction.
+/// If the grid's axes are those of the world, possibly permuted or reversed.
 std::optional<std::array<WorldAxis, 3>> worldAxes(const Grid& grid) {
     std::array<WorldAxis, 3> out;
     for (std::size_t column = 0; column < 3; ++column) {
@@ -44,8 +44,8 @@ std::optional<std::array<WorldAxis, 3>> worldAxes(const Grid& grid) {
     return out;
 }
 
-/// By how much a place in texture space may be off along `row`, of the magnitude of a coordinate: by what the inverse
-/// of the grid's matrix was rounded.
+/// Maximum error of a position in texture space along `row`, relative to a coordinate: the rounding of the inverse of
+/// the grid's matrix.
 double inverseError(const Mat4& texture_from_world, const Mat4& world_from_texture, std::size_t row,
                     std::size_t column) {
     double sum = column == 3 ? texture_from_world[12 + row] : 0;
@@ -92,7 +92,7 @@ shader::CertifiedPair certifiedPair(const shader::PairGrid& grid, const Mat4& wo
 
 namespace {
 
-/// Whether a place divided by it is as exact as src/exact/certified_precise.h says.
+/// True if division by it is as exact as src/exact/certified_precise.h requires.
 bool scaleIsUsable(double scale) {
     return scale >= 0x1p-40 && scale <= 0x1p40;
 }

@@ -9,15 +9,15 @@
 
 namespace voxtact {
 
-/// What of a grid is the same for all pairs of the projection `certified`.
+/// Constants of a grid for all pairs of the projection `certified`.
 [[nodiscard]] shader::PairGrid pairGrid(const Grid& grid, const Mat4& texture_from_world) noexcept;
 
-/// What that projection starts from (src/exact/certified.h), made in double and rounded to float once, so that device
-/// and host see the same numbers.
+/// Inputs of that projection (src/exact/certified.h), computed in double and rounded to float once, so device and host
+/// use the same numbers.
 [[nodiscard]] shader::CertifiedPair certifiedPair(const shader::PairGrid& grid, const Mat4& world_from_object,
                                                   const MeshOrigin& origin = {}) noexcept;
 
-/// Stored value -> entry, and what is the same for all pairs of an item. storedUnit is 0.
+/// Returns the map from stored values to entries, and the constants of an item. storedUnit is 0.
 [[nodiscard]] shader::CertifiedItem certifiedItem(const Grid& grid, const OpaqueNumbers& opaque,
                                                   double resolution) noexcept;
 

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-/// What is known of each counting method and of each projection: a row each, in the order of their numbers. Checks,
-/// requirements, options, the program and the lab read it here. docs/change.md says what else a new row needs.
+/// Properties of each counting method and projection: one row each, in the order of their numbers. Checks,
+/// requirements, options, the program and the lab use it. docs/change.md lists further steps for a new row.
 namespace voxtact {
 
-/// What a method asks of a device, as bits. gpu/requirements.cpp says how each is called and looks whether it is there.
+/// Device features of a method, as bits. gpu/requirements.cpp names and tests them.
 enum MethodNeed : std::uint32_t {
     kNeedsNothing = 0,
     kNeedsPreciseQuery = 1U << 0U,
@@ -82,7 +82,7 @@ template <class Table, class Key> constexpr bool isInOrder(const Table& table, K
 static_assert(detail::isInOrder(kMethodTable, [](const MethodRow& row) { return row.method; }));
 static_assert(detail::isInOrder(kProjectionTable, [](const ProjectionRow& row) { return row.projection; }));
 
-/// Whether there is a row: the number of an enumeration may come from anywhere.
+/// Returns true if there is a row: the number of an enumeration may be arbitrary.
 [[nodiscard]] constexpr bool isKnown(CountingMethod method) noexcept {
     return static_cast<std::size_t>(method) < kMethodTable.size();
 }
@@ -98,7 +98,7 @@ static_assert(detail::isInOrder(kProjectionTable, [](const ProjectionRow& row) {
     return kProjectionTable[static_cast<std::size_t>(projection)];
 }
 
-/// Whether a method answers in a projection, on a device that has what both need.
+/// Returns true if a method supports a projection, on a device with the features of both.
 [[nodiscard]] constexpr bool answers(CountingMethod method, Projection projection) noexcept {
     return !rowOf(projection).certified || rowOf(method).certified;
 }

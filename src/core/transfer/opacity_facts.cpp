@@ -16,7 +16,7 @@ namespace voxtact {
 
 namespace {
 
-/// How far an end of some intervals that is among the data is from one of others, at most.
+/// Maximum distance of an interval's end within the data from the ends of other intervals.
 double farthest(std::span<const ValueRange> from, std::span<const ValueRange> to, const ValueRange& data) {
     double most = 0;
     for (double ValueRange::*const end : {&ValueRange::lo, &ValueRange::hi}) {

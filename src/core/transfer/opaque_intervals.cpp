@@ -12,10 +12,10 @@ namespace voxtact {
 
 namespace {
 
-/// Where an end is. Exact: lo == hi.
+/// Bounds of an interval's end. Exact: lo == hi.
 using EndPlace = ValueRange;
 
-/// Of what a sum, a product and two quotients make of one of their terms, and more than that.
+/// More than the relative rounding of a sum, a product and two quotients.
 constexpr double kEndRounding = 0x1p-50;
 constexpr double kLeastEnd = 4 * std::numeric_limits<double>::denorm_min();
 
@@ -28,7 +28,7 @@ bool productsAreEqual(double a, double b, double c, double d) {
     return product == c * d && std::fma(a, b, -product) == std::fma(c, d, -product);
 }
 
-/// Where the opacity between two points crosses the threshold, which one of them reaches.
+/// Position between two points, one of which is opaque, at which the opacity crosses the threshold.
 EndPlace crossing(const ControlPoint& a, const ControlPoint& b, double threshold) {
     for (const ControlPoint& point : {a, b}) {
         if (point.opacity == threshold || a.value == b.value) {
@@ -48,7 +48,7 @@ EndPlace crossing(const ControlPoint& a, const ControlPoint& b, double threshold
     return {std::max(at - error, a.value), std::min(at + error, b.value)};
 }
 
-/// From a value to the stored one.
+/// Converts a value to the stored one.
 double storedOf(double value, const StoredScale& by, double& error) {
     const double scaled = (value - by.intercept) / by.slope;
     if (std::isinf(scaled) && !std::isinf(value)) {
@@ -94,7 +94,7 @@ std::size_t firstEndingAt(std::span<const ValueRange> in, double lo) noexcept {
     return i;
 }
 
-/// Those that have something in common with [lo, hi].
+/// The intervals that meet [lo, hi].
 std::span<const ValueRange> meeting(std::span<const ValueRange> in, double lo, double hi) noexcept {
     const std::size_t first = firstEndingAt(in, lo);
     std::size_t end = first;

@@ -9,7 +9,7 @@
 
 namespace voxtact {
 
-/// How the values of an image are stored: value = slope * stored + intercept.
+/// Storage of an image's values: value = slope * stored + intercept.
 struct StoredScale {
     double slope = 1; ///< not 0
     double intercept = 0;
@@ -29,11 +29,11 @@ class OpaqueIntervals {
     /// Ascending and apart; all that they hold is opaque.
     [[nodiscard]] std::span<const ValueRange> inner() const noexcept { return inner_; }
 
-    /// Returns whether [lo, hi] may have an opaque value. `hull` is then the least interval that certainly holds all of
-    /// those in [lo, hi], except for ends beyond lo or hi. NaN may be anything.
+    /// Returns whether [lo, hi] may have an opaque value. `hull` is then the smallest interval that certainly contains
+    /// all of those in [lo, hi], except for ends beyond lo or hi. NaN may be any value.
     [[nodiscard]] bool meet(double lo, double hi, ValueRange& hull) const noexcept;
     [[nodiscard]] bool mayMeet(double lo, double hi) const noexcept;
-    /// Those that have something in common with [lo, hi].
+    /// Returns the intervals that meet [lo, hi].
     struct Some {
         std::span<const ValueRange> outer;
         std::span<const ValueRange> inner;

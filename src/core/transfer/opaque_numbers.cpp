@@ -55,7 +55,7 @@ float referenceOf(const OpaqueIntervals& intervals, const StoredScale& stored, b
     return std::abs(best) > 0x1p-60 && std::abs(best) < 0x1p100 ? static_cast<float>(best) : 0;
 }
 
-/// From stored values to entries.
+/// Converts stored values to entries.
 class EntryScale {
   public:
     EntryScale(const OpaqueNumbers& numbers, bool whole)

@@ -9,14 +9,14 @@
 
 namespace voxtact {
 
-/// What OpaqueIntervals of stored values are as single-precision entries: entry = scale * (stored - reference).
+/// OpaqueIntervals of stored values as single-precision entries: entry = scale * (stored - reference).
 struct OpaqueNumbers {
     float scale = 1; ///< a power of two: values of all magnitudes can be added
     float reference = 0;
     shader::OpaqueValues counts{}; ///< `numbers` is null
     std::vector<float> numbers{};  ///< those of shader::OpaqueValues
 
-    /// Of these; valid as long as they are.
+    /// Returns a view of these numbers, valid as long as they are.
     [[nodiscard]] shader::OpaqueValues values() const noexcept {
         shader::OpaqueValues out = counts;
         out.numbers = numbers.data();

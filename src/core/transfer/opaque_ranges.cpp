@@ -14,7 +14,7 @@ constexpr double kOpacityMargin = 1e-3;
 /// A scalar looks up the two entries around it; one more on each side covers weights of 8 fraction bits.
 constexpr double kEntryMargin = 2.0;
 
-/// Of the normalisation, relative to its largest term: a product, a sum, and the filter before them.
+/// Relative to the largest term of the normalisation: a product, a sum, and the filter before them.
 constexpr double kNormalisationError = 8.0 / (1 << 24);
 
 } // namespace

@@ -11,24 +11,24 @@
 
 namespace voxtact {
 
-/// The largest magnitude, in the image's units, of what a device adds in single precision to get from a texel to the
-/// normalised scalar. `intercept` and `texel`: of the line that makes a value of a stored texel.
+/// The largest magnitude, in the image's units, of a device's single-precision terms between a texel and the normalised
+/// scalar. `intercept` and `texel`: of the line from a stored texel to a value.
 [[nodiscard]] inline double largestTerm(double intercept, double texel, const ValueRange& domain) noexcept {
     return std::max({std::abs(intercept), std::abs(texel), std::abs(domain.lo), std::abs(domain.hi)});
 }
 
-/// Which scalars of a transfer function's table can look up an opacity of at least a threshold, on the safe side:
-/// mayBeOpaque() is false only where no sampler, whatever the precision of its weights, returns an opaque sample for
-/// any scalar of the range. Kept as prefix counts over the table's entries, so that a question costs two look-ups.
+/// Ranges of scalars of a transfer function's table with an opacity of at least a threshold, conservatively:
+/// mayBeOpaque() is false only if no sampler, whatever the precision of its weights, returns an opaque sample for any
+/// scalar of the range. Prefix counts over the table's entries: a query takes two lookups.
 class OpaqueRanges {
   public:
     /// `table` as sampleTable() returns it. A threshold that is not positive makes every scalar opaque. `largest` is
     /// largestTerm(): with a domain that is narrow compared with it, the scalar is off by more than an entry.
     OpaqueRanges(std::span<const float> table, const ValueRange& domain, double threshold, double largest = 0);
 
-    /// Whether a scalar of the closed range (in the image's own units) may be opaque.
+    /// Returns true if a scalar of the closed range (in the image's own units) may be opaque.
     [[nodiscard]] bool mayBeOpaque(const ValueRange& range) const noexcept;
-    /// Whether no scalar at all is opaque: nothing is visible.
+    /// Returns true if no scalar is opaque: nothing is visible.
     [[nodiscard]] bool nothingOpaque() const noexcept { return opaqueBefore_.back() == 0; }
 
   private:

@@ -67,7 +67,7 @@ ValueRange tableDomain(const TransferFunctionDesc& desc) noexcept {
 
 Result<std::vector<float>> sampleTable(const TransferFunctionDesc& desc) {
     return guard([&]() -> Result<std::vector<float>> {
-        // First the domain: points that are not given are made of its ends.
+        // The domain first: its ends become the default points.
         const bool isGiven = desc.domain.lo != 0 || desc.domain.hi != 0;
         VOXTACT_TRY(isGiven ? checkDomain(desc.domain, "the transfer function's domain") : Result<void>());
         VOXTACT_TRY(checkPoints(desc.points));

@@ -28,11 +28,11 @@ Span numbersWithin(double lo, double hi, std::uint32_t size) {
     return {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(std::max(first, end))};
 }
 
-/// More than what eight operations round off, relative to the largest of what they add up.
+/// More than the rounding of eight operations, relative to their largest term.
 constexpr double kRounding = 0x1p-49;
 /// More than what any product here loses below the smallest normal double.
 constexpr double kLost = 1e-290;
-/// Of the numbers that a place in index space is computed from: how far it may be off.
+/// Maximum relative error of the numbers that give a position in index space.
 constexpr double kPlaceError = 1e-9;
 
 /// The least of the numbers from `first` to `end` for which a condition holds that holds for all after it; `end` when
@@ -88,8 +88,8 @@ class Row {
                (guess.end == grid_.size[0] || !inside(guess.end));
     }
 
-    /// Whether no voxel is inside, shown by those around the nearest one. A voxel on either side of it may lie exactly
-    /// where the distance is least, and is not asked.
+    /// True if no voxel is inside, shown by those around the nearest one. A voxel on either side may lie exactly at the
+    /// minimum distance, and is not tested.
     [[nodiscard]] bool isMissed(double nearest) const {
         const std::uint32_t last = grid_.size[0] - 1;
         const auto about =
@@ -116,7 +116,7 @@ class Row {
                 leastThat(near + 1, size, [this](std::uint32_t x) { return !inside(x); })};
     }
 
-    /// Whether a voxel's centre is within the ball.
+    /// True if a voxel's centre is in the ball.
     [[nodiscard]] bool inside(std::uint32_t x) const {
         double sum = 0;
         double error = 0;
@@ -139,7 +139,7 @@ class Row {
         return beyond.sign() <= 0;
     }
 
-    /// Whether the distance does not become less towards the next voxel: its derivative is not negative.
+    /// True if the distance does not decrease towards the next voxel: its derivative is not negative.
     [[nodiscard]] bool rises(std::uint32_t x) const {
         double sum = 0;
         double error = kLost;
@@ -158,7 +158,7 @@ class Row {
         return slope.sign() >= 0;
     }
 
-    /// Of a coordinate of the way from the ball's centre to a voxel's.
+    /// Coordinate of the vector from the ball's centre to a voxel's centre.
     [[nodiscard]] double errorAt(std::size_t i, std::uint32_t x) const {
         return kRounding * (terms_[i] + std::abs(step_[i]) * x);
     }
@@ -176,7 +176,7 @@ class Row {
     const Grid& grid_;
     std::array<std::uint32_t, 3> number_; ///< of the row's first voxel
     Vec3 from_{};                         ///< from the ball's centre to it
-    Vec3 terms_{};                        ///< the magnitudes of what that is the sum of
+    Vec3 terms_{};                        ///< magnitudes of the terms of that sum
     Vec3 step_{};                         ///< from one voxel to the next
 };
 

@@ -5,9 +5,9 @@
 
 namespace voxtact {
 
-/// The voxels of a ball, as voxelRows() says. A voxel belongs to it when its centre, origin + direction * (spacing *
-/// number), is no farther from the ball's than the radius, of the numbers as they are: nothing rounds. Each voxel is
-/// decided in double where that is certain, and by ExactNumber where it is not.
+/// Returns the rows of the voxels in a ball, like voxelRows(). A voxel belongs to the ball if its centre, origin +
+/// direction * (spacing * index), is within the radius, in exact arithmetic on the given numbers. Each voxel is decided
+/// in double if that is certain, else by ExactNumber.
 [[nodiscard]] std::vector<VoxelRow> ballRows(const Ball& ball, const Grid& grid);
 
 } // namespace voxtact

@@ -20,7 +20,7 @@ struct VoxelRow {
 /// voxels a region has: host and device edit these and no others. Expects a region that voxelBounds() accepts.
 [[nodiscard]] std::vector<VoxelRow> voxelRows(const VoxelRegion& region, const Grid& grid);
 
-/// The least box with all of them.
+/// Returns the smallest box that contains all of them.
 [[nodiscard]] VoxelBox boundsOf(const std::vector<VoxelRow>& rows) noexcept;
 
 } // namespace voxtact

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-/// What clearances to labels ask of label maps.
+/// Checks the label maps of a question about labels.
 namespace voxtact {
 
 [[nodiscard]] Error notOnGrid(const std::string& which);

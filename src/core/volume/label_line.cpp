@@ -26,7 +26,7 @@ const char* toString(Safety safety) noexcept {
 
 namespace {
 
-/// In voxels: 0 to `size` along each axis is the grid.
+/// In voxels: the grid is 0 to `size` along each axis.
 struct Line {
     Vec3 from;
     Vec3 to;
@@ -40,8 +40,8 @@ Vec3 between(const Vec3& from, const Vec3& to, double part) {
     return out;
 }
 
-/// What of the line is in the grid; none where nothing is. Places between ends that are far away would be rounded to
-/// more than a voxel. Each part is counted from the end inside, so that it is exact however far the other one is.
+/// Returns the part of the line in the grid, if any. Positions between distant ends would be rounded to more than a
+/// voxel; counting each part from its inner end is exact for any distance of the other one.
 std::optional<Line> inGrid(Line line, const Vec3& size) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         for (const auto& [face, inward] : {std::pair{0.0, 1}, std::pair{size[axis], -1}}) {
@@ -68,7 +68,7 @@ std::vector<std::int32_t> labelsBetween(const LabelData& labels, const Line& who
     if (!line) {
         return out;
     }
-    // Where the line goes from one layer of voxels to another, as its part from 0 to 1.
+    // Parameters from 0 to 1 at which the line crosses from one layer of voxels to the next.
     std::vector<double> steps{0, 1};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const double begin = line->from[axis];

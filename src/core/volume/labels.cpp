@@ -43,7 +43,7 @@ template <class Scalar> Result<void> checkWhole(const Grid& grid, const Scalar* 
 struct Census {
     std::int32_t first = 0;
     std::vector<bool> used;
-    std::vector<std::uint16_t> numbers; ///< of those that are used
+    std::vector<std::uint16_t> numbers; ///< of the used labels
 
     explicit Census(const ValueRange& range)
         : first(std::min(static_cast<std::int32_t>(range.lo), 0)),

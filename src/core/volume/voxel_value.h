@@ -12,8 +12,8 @@ namespace voxtact {
 /// A voxel of any type: the first bytesPerVoxel(type) bytes.
 using VoxelBytes = std::array<std::byte, 4>;
 
-/// What an edit gives a voxel, on the host and on the device. Refuses NaN and infinity, for integers what is not a
-/// whole number within the type's range, for floats what is beyond the largest one. Floats are rounded to the nearest.
+/// Returns the voxel of an edit's value, on the host and on the device. Refuses NaN and infinity, for integers a number
+/// that is not whole or out of range, for floats a number beyond the largest one. Floats are rounded to the nearest.
 [[nodiscard]] Result<VoxelBytes> voxelOf(ScalarType type, double value);
 /// The value that a voxel holds.
 [[nodiscard]] double valueOf(ScalarType type, const VoxelBytes& voxel) noexcept;

@@ -54,7 +54,7 @@ struct AreaBox {
     glm::dvec3 hi;
 };
 
-/// How high a polygon's corners are above a plane through `at` at right angles to an axis.
+/// Range of heights of a polygon's corners above a plane through `at` perpendicular to an axis.
 [[nodiscard]] inline Heights heightsAlong(const AreaFrame& frame, const UvPolygon& polygon, int axis,
                                           double at) noexcept {
     Heights heights{};
@@ -64,16 +64,18 @@ struct AreaBox {
     return heights;
 }
 
-/// How far computed coordinates may be off.
+/// Maximum error of computed coordinates.
 struct AreaSlack {
     /// `error`: MeshPlace::error().
     AreaSlack(const VolumeSpace& space, double error) noexcept : place(2 * error / space.spacing) {}
 
-    /// Of a point, voxels along each axis.
+    /// Voxel coordinates of a point.
     glm::dvec3 place;
-    /// By how much a part may reach out of its cell where it is cut: many times the rounding of a coordinate.
+    /// Maximum distance by which a part may extend out of its cell after a cut: many times the rounding of a
+    /// coordinate.
     [[nodiscard]] double cut(int axis) const noexcept { return 2 * place[axis]; }
-    /// What is cut this far from a plane is truly on that side of it: `cut`, and `place`, and as much again.
+    /// Margin within which a cut may put a point on the wrong side of a plane: the errors of `cut` and `place`,
+    /// doubled.
     [[nodiscard]] double doubt(int axis) const noexcept { return 2 * cut(axis); }
     /// The way along which a point's value may differ from the one that is computed, all axes together: from its true
     /// place to the computed one (`place`), from there into the cell (`cut`), the same way out again, by which the

@@ -31,7 +31,7 @@ AreaGoal goalOf(const Area& question, CancelFlag cancel) {
     return {question.tolerance, question.maxSteps, cancel};
 }
 
-/// Whether the mesh may touch; it is then in `memory`. What certainly does not touch has no area.
+/// Returns true if the mesh may touch; it is then in `memory`. A mesh that certainly does not touch has area 0.
 bool placeIfItMayTouch(const PairAt& at, ThreadMemory& memory) {
     std::optional<TouchPoint> point;
     const CertifiedTally touch = at.touch(point);
@@ -70,10 +70,10 @@ Slots slotsOf(const LabelData& map, std::span<const std::int32_t> labels) {
     return slots;
 }
 
-/// Of a batch's maps, each of which is examined once.
+/// Label maps of a batch, each checked once.
 using SlotsOfMaps = std::map<const LabelData*, Slots>;
 
-/// What each pair has for each label, before it is told label by label.
+/// Results of each pair for all labels, before they are split by label.
 struct PairAreas {
     std::uint32_t pair = 0;
     std::uint32_t item = 0;

@@ -13,7 +13,7 @@ namespace voxtact::cpu {
 
 namespace {
 
-/// What is measured together, and what of it may be divided.
+/// One sum of the measurement, with its divisible parts.
 struct Slot {
     explicit Slot(std::uint64_t mostSteps) : open(mostSteps) {}
 
@@ -21,12 +21,12 @@ struct Slot {
     OpenParts open;
 };
 
-/// What each triangle has of all slots together, where that is asked for.
+/// Per triangle, the sum over all slots, if requested.
 class TriangleSums {
   public:
     explicit TriangleSums(bool areAsked) : areAsked_(areAsked) {}
 
-    /// A triangle begins. The number of its frame goes to the next one if no part of it may be divided.
+    /// Begins a triangle. The next triangle reuses the index of its frame if no part of it can be divided.
     void begin(std::uint32_t frame, std::uint32_t triangle, double whole) {
         if (areAsked_) {
             sums_.push_back({triangle, whole, {}, 0});
@@ -48,13 +48,13 @@ class TriangleSums {
             --sum.parts;
         }
     }
-    /// What was begun last will not be divided.
+    /// Drops the last frame: it will not be divided.
     void end() {
         if (areAsked_ && sums_.back().parts == 0) {
             sums_.pop_back();
         }
     }
-    /// Those that may have an area, by number.
+    /// The triangles that may have an area, by index.
     [[nodiscard]] std::vector<TriangleFound> found() const {
         std::vector<TriangleFound> found;
         for (const Sum& one : sums_) {
@@ -71,7 +71,7 @@ class TriangleSums {
         std::uint32_t triangle = 0;
         double whole = 0;
         AreaSum sum;
-        std::size_t parts = 0; ///< that may have an area: where there are none, what the sum rounds off is none either
+        std::size_t parts = 0; ///< parts that may have an area; without any, the rounding error of the sum is 0, too
     };
 
     bool areAsked_;
@@ -100,13 +100,13 @@ class AreaSearch {
         }
         return found;
     }
-    /// Of what was run.
+    /// Results of the parts that were run.
     [[nodiscard]] std::vector<TriangleFound> triangles() const { return triangles_.found(); }
 
   private:
     [[nodiscard]] bool goesOn() const { return !isCancelled(goal_.cancel); }
 
-    /// Each slot has its own steps: what is found of one does not depend on what else is asked for.
+    /// Each slot has its own iterations, so its result does not depend on other slots.
     AreaFound finish(Slot& slot) {
         std::uint64_t steps = 0;
         while (!slot.sum.within(goal_.tolerance) && !slot.open.empty() && steps < goal_.mostSteps && goesOn()) {
@@ -159,7 +159,7 @@ class AreaSearch {
         }
     }
 
-    /// Whether some of it may be divided.
+    /// True if some part can be divided.
     bool addByLabel(const AreaFrame& frame, const CellPart& part) {
         if (!labels_) {
             return add(frame, part);
@@ -169,7 +169,7 @@ class AreaSearch {
         return isOpen;
     }
 
-    /// Whether it may be divided.
+    /// True if the part can be divided.
     bool add(const AreaFrame& frame, const CellPart& part) {
         const PartArea area = measure_.area(frame, part);
         sum(part.slot, part.frame, area);
@@ -214,7 +214,7 @@ class AreaSearch {
     std::optional<LabelCut> labels_;
 };
 
-/// Whether places are known well enough to tell neighbouring cells.
+/// True if positions are precise enough to distinguish neighbouring cells.
 bool areKnown(const VolumeSpace& space, double error) {
     constexpr double kMostReach = 0.25; // voxels
     return error < kInfinity && AreaSlack(space, error).reach() < kMostReach;
@@ -222,7 +222,7 @@ bool areKnown(const VolumeSpace& space, double error) {
 
 constexpr AreaFound kUnknown{{0, kInfinity}, StopReason::Rounding};
 
-/// All of a mesh that is not known well enough.
+/// Upper bound for a mesh whose positions are too imprecise: its whole area.
 std::vector<TriangleFound> unknownTriangles(const MeshImpl& mesh) {
     std::vector<TriangleFound> found(mesh.facts.triangles);
     for (std::uint32_t i = 0; i < mesh.facts.triangles; ++i) {

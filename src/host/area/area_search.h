@@ -11,23 +11,23 @@
 
 namespace voxtact::cpu {
 
-/// What is asked of a measurement.
+/// Inputs of a measurement.
 struct AreaGoal {
     double tolerance = 0;        ///< mm^2: how near to each other the bounds of each sum are brought
-    std::uint64_t mostSteps = 0; ///< so many parts are divided
+    std::uint64_t mostSteps = 0; ///< maximum number of divisions
     CancelFlag cancel = nullptr; ///< what a cancelled measurement says means nothing
 };
 
-/// What it found.
+/// Result of a measurement.
 struct AreaFound {
     Bounds bounds;
     StopReason end{};
 };
 
-/// What one triangle has of it.
+/// Area of one triangle.
 struct TriangleFound {
     std::uint32_t triangle = 0; ///< number in the mesh
-    double whole = 0;           ///< mm^2, of all of it
+    double whole = 0;           ///< mm^2, of the whole triangle
     Bounds bounds;
 };
 
@@ -37,8 +37,8 @@ struct TriangleFound {
 [[nodiscard]] AreaFound measureArea(const VolumeImpl& volume, const OpaquePart& part, MeshPlace& mesh,
                                     const AreaGoal& goal, std::vector<TriangleFound>* triangles = nullptr);
 
-/// The same of what is opaque and where labelAt() says some labels: as many as there are slots, each with steps of its
-/// own.
+/// Like the measurement above, for the opaque parts with some labels by labelAt(): one slot per label, each with its
+/// own iterations.
 [[nodiscard]] std::vector<AreaFound> measureAreas(const VolumeImpl& volume, const OpaquePart& part, MeshPlace& mesh,
                                                   const AreaLabels& labels, std::size_t slots, const AreaGoal& goal);
 

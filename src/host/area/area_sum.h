@@ -9,7 +9,7 @@
 
 namespace voxtact::cpu {
 
-/// Neumaier's sum: what is rounded off is kept ("Rundungsfehleranalyse einiger Verfahren zur Summation endlicher
+/// Neumaier's sum, which compensates rounding ("Rundungsfehleranalyse einiger Verfahren zur Summation endlicher
 /// Summen", 1974).
 class KeptSum {
   public:
@@ -21,7 +21,7 @@ class KeptSum {
         ++count_;
     }
     [[nodiscard]] double value() const noexcept { return sum_ + rest_; }
-    /// The sum is not off by more: by its own rounding, and by what is rounded in `rest_`.
+    /// Upper bound of the error: rounding of the sum and of `rest_`.
     [[nodiscard]] double error() const noexcept {
         const double twice = kRounding * count_;
         return 4 * (kRounding * std::abs(value()) + twice * twice * magnitudes_);
@@ -35,7 +35,7 @@ class KeptSum {
     double count_ = 0;
 };
 
-/// What parts have together.
+/// Sum over parts.
 class AreaSum {
   public:
     void add(const PartArea& area) noexcept {
@@ -57,7 +57,7 @@ class AreaSum {
     }
 
   private:
-    /// Of each part: some products of what area_frame.h and uv_polygon.h bound.
+    /// Relative error of each part: some products of the bounds in area_frame.h and uv_polygon.h.
     static constexpr double kPartError = 0x1p-46;
 
     KeptSum lo_;

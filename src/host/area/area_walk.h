@@ -12,12 +12,12 @@ namespace voxtact::cpu {
 /// Cuts triangles at the faces of cells, and leaves out where nothing is opaque. One thread's.
 class AreaWalk {
   public:
-    /// All must outlive it. `cellByCell`: what is opaque all over comes in cells, too.
+    /// All must outlive it. `cellByCell`: also visits the cells of entirely opaque bricks.
     AreaWalk(const VolumeImpl& volume, const OpaquePart& part, const AreaSlack& slack, const PartMeasure& measure,
              bool cellByCell)
         : volume_(volume), part_(part), slack_(slack), measure_(measure), cellByCell_(cellByCell) {}
 
-    /// Whether the triangles in a box of centred voxel coordinates may have an opaque point.
+    /// Returns true if the triangles in a box of centred voxel coordinates may have an opaque point.
     [[nodiscard]] bool mayTouch(const glm::dvec3& lo, const glm::dvec3& hi) const {
         const CellBox all = everywhere();
         for (int axis = 0; axis < 3; ++axis) {
@@ -51,7 +51,7 @@ class AreaWalk {
         const Part& part;
         const Opaque& opaque;
 
-        /// Leaves out what is beyond the volume, along the axes from `axis` on.
+        /// Cuts off the part beyond the volume, along the axes from `axis` on.
         void cutAtVolume(const UvPolygon& polygon, int axis, bool atEdge) const {
             if (polygon.empty()) {
                 return;
@@ -102,7 +102,8 @@ class AreaWalk {
             divide(parts.above, half, atEdge || !parts.sure);
         }
 
-        /// Not sure: there was no room for corners, which rounding alone can do, and either half may be all of it.
+        /// Halves of a polygon; uncertain if rounding makes too many corners: either half may then be the whole
+        /// polygon.
         struct Halves {
             UvPolygon below;
             UvPolygon above;
@@ -144,7 +145,7 @@ class AreaWalk {
         return {static_cast<int>(axis), middle};
     }
 
-    /// Of the volume, for certain.
+    /// True if the polygon is certainly in the volume.
     [[nodiscard]] bool isInside(const AreaBox& box) const {
         bool inside = true;
         for (int axis = 0; axis < 3; ++axis) {
@@ -178,7 +179,7 @@ class AreaWalk {
         return cells;
     }
 
-    /// Whether something may be opaque in some cells, or so near to them that a part reaches there.
+    /// Returns true if some cells, or cells near enough for a part to reach them, may have an opaque point.
     [[nodiscard]] bool mayBeOpaque(CellBox cells) const {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             cells.lo[axis] = std::max(cells.lo[axis] - 1, -1);

@@ -12,15 +12,15 @@ namespace {
 
 using glm::dvec3;
 
-/// The range of the whole volume is as good as that of a cell's surroundings where it is at most so many times what the
-/// cell's terms add up to.
+/// Maximum ratio of the whole volume's range to the sum of the cell's terms for which the range replaces that of the
+/// cell's surroundings.
 constexpr double kFewTimes = 16;
 /// A part whose box has become so small in its cell (half sides) is not divided again.
 constexpr double kLeastHalf = 0x1p-26;
 /// A function that has more opaque intervals in the range of a part is examined when the part is smaller.
 constexpr std::size_t kMostIntervals = 8;
 
-/// The smallest and the largest stored value of the corners of a cell and of those around it.
+/// Returns the smallest and largest stored value at the corners of a cell and its neighbours.
 ValueRange rangeAround(const StoredImage& image, const NodePlace& padded) {
     ValueRange range{kInfinity, -kInfinity};
     image.visit([&](const auto* voxels) {
@@ -47,8 +47,7 @@ int largest(const dvec3& of) {
     return of.x >= of.y && of.x >= of.z ? 0 : (of.y >= of.z ? 1 : 2);
 }
 
-/// The interpolant on a part, at each corner what is linear on the part, how far it is from that,
-/// and between which values it is.
+/// The interpolant on a part: at each corner the linear approximation, its error, and its range.
 struct PartValues {
     Heights linear{};
     double off = 0;
@@ -58,7 +57,7 @@ struct PartValues {
     dvec3 half{}; ///< half of these, in the cell's coordinates
 };
 
-/// How far the interpolant of a cell may be from its middle.
+/// Returns the maximum deviation of the interpolant of a cell from its middle value.
 double spreadOf(const Trilinear& terms) {
     double sum = 0;
     for (std::size_t i = 1; i < terms.size(); ++i) {
@@ -67,8 +66,8 @@ double spreadOf(const Trilinear& terms) {
     return sum;
 }
 
-/// The quadratic terms of a point that is a mean of corners are the mean of those that all pairs of corners have, by
-/// the weights of both: so they are between the least and the greatest of these.
+/// The quadratic terms at a mean of corners are the weighted mean of the terms of all pairs of corners, so they lie
+/// between the smallest and the largest of these.
 ValueRange quadraticRange(const Trilinear& terms, std::span<const dvec3> corners) {
     ValueRange range{kInfinity, -kInfinity};
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -122,7 +121,7 @@ struct Share {
 
 Share opaqueShare(const UvPolygon& polygon, const PartValues& values, const OpaqueIntervals::Some& some) {
     Share share;
-    double from = -kInfinity; // of what is possible: intervals that are so near to each other are one
+    double from = -kInfinity; // possible intervals, merged where they overlap
     double to = -kInfinity;
     for (const ValueRange& one : some.inner) {
         share.certain += areaBetween(polygon, values.linear, one.lo + values.off, one.hi - values.off);
@@ -172,7 +171,8 @@ double PartMeasure::errorAround(const NodePlace& padded, const PartCell& cell) c
     return (range.hi - range.lo) * reach_;
 }
 
-/// Of a cell whose voxels are all equal, so that rounding moves no value, but for what may be in another cell.
+/// Returns the area in a cell whose voxels are all equal. Rounding moves no value there, but a part may be in another
+/// cell.
 PartArea PartMeasure::areaInside(const AreaFrame& frame, const CellPart& part, const PartCell& cell) const {
     PartArea out = whole(frame, part.polygon);
     const ValueRange around = rangeAround(volume_.image, part.padded);
@@ -198,7 +198,7 @@ PartArea PartMeasure::area(const AreaFrame& frame, const CellPart& part) const {
     const double error = cell.error + errorAround(part.padded, cell);
     if (part_.intervals.contain(cell.terms[0] - spreadOf(cell.terms) - error,
                                 cell.terms[0] + spreadOf(cell.terms) + error)) {
-        out.lo = part.atEdge ? 0 : out.lo; // as in most cells that are deep in what is opaque
+        out.lo = part.atEdge ? 0 : out.lo; // as in most cells deep inside the opaque region
         return out;
     }
     const PartValues values = valuesOn(frame, part.polygon, cell, error);
@@ -222,7 +222,7 @@ PartArea PartMeasure::area(const AreaFrame& frame, const CellPart& part) const {
     const double certain = std::max(share.certain - doubt, 0.0) * frame.lo;
     out.lo = part.atEdge ? 0 : certain;
     out.hi = std::min((share.possible + doubt) * frame.hi, out.hi);
-    // What rounding leaves open, dividing it does not close.
+    // Division does not decide a part that rounding leaves open.
     out.gain = small || !(values.off > 4 * error) ? 0 : std::max(out.hi - certain, 0.0);
     out.axis = largest(values.bent);
     return out;

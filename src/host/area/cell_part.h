@@ -21,18 +21,18 @@ struct CellPart {
 struct PartArea {
     double lo = 0;
     double hi = 0;
-    double gain = 0; ///< mm^2: so much nearer dividing it may bring them; 0: not at all
+    double gain = 0; ///< mm^2: maximum gain of a division; 0: none
     int axis = 0;    ///< across that one it is best divided
 };
 
-/// How much of parts of triangles is opaque. One thread's.
+/// Bounds the opaque share of parts of triangles. Not thread-safe.
 class PartMeasure {
   public:
     /// All must outlive it.
     PartMeasure(const VolumeImpl& volume, const OpaquePart& part, const AreaSlack& slack);
 
     [[nodiscard]] PartArea area(const AreaFrame& frame, const CellPart& part) const;
-    /// Whether all of a polygon whose box lies in this brick is certainly opaque.
+    /// Returns true if a polygon whose box lies in this brick is certainly opaque everywhere.
     [[nodiscard]] bool allOpaque(const NodePlace& brick) const;
     /// A polygon's own area, opaque or not.
     [[nodiscard]] static PartArea whole(const AreaFrame& frame, const UvPolygon& polygon) noexcept;

@@ -14,22 +14,22 @@ namespace voxtact::cpu {
 
 /// Labels that areas are measured to.
 struct AreaLabels {
-    /// Of a label that is not asked for.
+    /// Slot of a label that was not requested.
     static constexpr std::uint16_t kNoSlot = 0xffff;
 
     const LabelData* map = nullptr;       ///< on the volume's grid
     std::span<const std::uint16_t> slots; ///< of LabelData::values: the number of the sum, or kNoSlot
 };
 
-/// Cuts the parts of triangles in cells between the boxes of voxels with different labels: a cell has eight of them.
+/// Cuts the parts of triangles in cells along the boxes of voxels with different labels: a cell overlaps eight of them.
 class LabelCut {
   public:
     /// All must outlive it.
     LabelCut(const AreaLabels& labels, const VolumeSpace& space, const AreaSlack& slack)
         : labels_(labels), space_(space), slack_(slack) {}
 
-    /// Calls `visit(part)` for the parts that have a slot. What is so near to the face of a voxel's box that rounding
-    /// decides which one it is in comes once for each slot that it may have, and is at an edge.
+    /// Calls `visit(part)` for the parts with a slot. A part so near the face of a voxel's box that rounding decides
+    /// its side is visited once for each possible slot, with its edge flag set.
     template <class Visit> void cut(const AreaFrame& frame, const CellPart& part, const Visit& visit) const {
         const Octants octants = octantsOf(part.padded);
         if (std::ranges::all_of(octants, [&](std::uint16_t slot) { return slot == octants[0]; })) {

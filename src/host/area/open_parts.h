@@ -18,8 +18,7 @@ class OpenParts {
         PartArea area;
     };
 
-    /// So many are taken out at most: of those that were added before the first one is, no more are kept than twice as
-    /// many.
+    /// Maximum number of removals: of the parts added before the first removal, it keeps at most twice as many.
     explicit OpenParts(std::uint64_t most) : most_(std::max<std::uint64_t>(most, 1)) {}
 
     void add(const CellPart& part, const PartArea& area) {

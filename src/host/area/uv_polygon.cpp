@@ -8,12 +8,12 @@ namespace voxtact::cpu {
 
 namespace {
 
-/// Of the length of a polygon's edges: the roundings of coordinates up to 1, and of their products; and what neighbours
-/// may not have in common, because an edge that both have is cut on each side by itself. A part is cut some 60 times at
-/// most until it is too small.
+/// Relative to the length of a polygon's edges: the rounding of coordinates up to 1 and of their products, and the
+/// mismatch of neighbours, because each cuts a common edge on its own. A part is cut at most about 60 times before it
+/// is too small.
 constexpr double kEdgeError = 0x1p-47;
 
-/// Where an edge between corners on either side of height 0 crosses it.
+/// Returns the point at height 0 on an edge between corners on both sides.
 Uv crossing(const Uv& a, double heightA, const Uv& b, double heightB) noexcept {
     const double part = heightA / (heightA - heightB);
     return {a.u + part * (b.u - a.u), a.v + part * (b.v - a.v)};
@@ -41,7 +41,7 @@ class Corners {
     int count_ = 0;
 };
 
-/// Of the part that is higher.
+/// Returns the area of the upper part.
 double areaAbove(const UvPolygon& polygon, const Heights& heights, double from) noexcept {
     Corners part;
     for (std::uint32_t i = 0; i < polygon.count; ++i) {
@@ -61,8 +61,8 @@ double areaAbove(const UvPolygon& polygon, const Heights& heights, double from) 
 /// -1 below the line, 1 above it, 0 on it.
 using Sides = std::array<int, UvPolygon::kMost>;
 
-/// What is not clear of a corner is decided by its neighbours where these are on one side: then the corners of either
-/// side are in a row, whatever was rounded.
+/// Neighbours decide an uncertain corner if both are on one side: then the corners of each side are consecutive,
+/// whatever the rounding.
 Sides sidesOf(const UvPolygon& polygon, const Heights& heights, double slack) noexcept {
     Sides clear{};
     for (std::uint32_t i = 0; i < polygon.count; ++i) {
@@ -119,7 +119,7 @@ bool split(const UvPolygon& polygon, const Heights& heights, double slack, UvPol
     above.count = 0;
     for (std::uint32_t i = 0; i < polygon.count; ++i) {
         const std::uint32_t next = polygon.after(i);
-        // Of some corners in a row on the line, the lower part has the last one, or the first one.
+        // Of consecutive corners on the line, the lower part keeps the last or the first.
         const bool ends = sides[i] == 0 && (sides[next] < 0 || sides[polygon.before(i)] < 0);
         if (sides[i] >= 0) {
             add(above, polygon.corners[i]);

@@ -30,11 +30,11 @@ struct UvPolygon {
         return corner == 0 ? count - 1 : corner - 1;
     }
     [[nodiscard]] double area() const noexcept;
-    /// No area of a part of it is off by more.
+    /// Upper bound of the error of a part's area.
     [[nodiscard]] double areaError() const noexcept;
 };
 
-/// How high each corner of a polygon is above a line of its plane.
+/// Height of each corner of a polygon above a line in its plane.
 using Heights = std::array<double, UvPolygon::kMost>;
 
 /// Cuts a polygon along the line of height 0. Both parts have the same ends of the cut, so that they leave nothing out

@@ -13,7 +13,7 @@ struct BrickBox {
     std::array<std::int32_t, 3> lo{};
     std::array<std::int32_t, 3> hi{};
 
-    /// How many they are; of a box that is not empty.
+    /// Number of bricks in a box that is not empty.
     [[nodiscard]] std::int64_t volume() const noexcept {
         std::int64_t count = 1;
         for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -17,7 +17,7 @@ namespace voxtact::cpu {
 
 namespace {
 
-/// What is the same for all pairs of an item.
+/// Data that all pairs of an item share.
 struct ItemFacts {
     std::shared_ptr<const Occupancy> occupancy;
     ViewFacts view;

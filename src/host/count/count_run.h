@@ -13,7 +13,7 @@ namespace voxtact::cpu {
 
 using Occupancies = OccupancyCache<Occupancy, 1>;
 
-/// What the threads of a detector keep from call to call; a scratch for each thread of the pool.
+/// State that the threads of a detector keep between calls: one scratch per thread of the pool.
 struct Workshop {
     ThreadPool& pool;
     std::span<const ScratchPointer> scratches;

@@ -16,7 +16,7 @@ namespace voxtact::cpu {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// The lanes of a vector of triangles, sorted by what becomes of them.
+/// Lanes of a vector of triangles, by their classification.
 struct Sorted {
     IntM small;
     IntM lone; ///< through the scalar set-up: large, or with a corner outside

@@ -53,7 +53,7 @@ std::int32_t brickOf(float coordinate, float slack, std::int32_t size) {
     return std::clamp(static_cast<std::int32_t>(std::floor(shifted)) + 1, 0, size) >> kBrickShift;
 }
 
-/// What a box of texture coordinates meets.
+/// Returns the class of a box of texture coordinates.
 BrickClass boxClass(const PairJob& job, const Range (&ranges)[3]) {
     BrickBox box;
     bool inside = true;

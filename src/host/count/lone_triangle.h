@@ -9,16 +9,16 @@
 
 namespace voxtact::cpu {
 
-/// A triangle through exactVertex(), dominantProject() where there is no camera, exactClip() and exactSetUp(); returns
-/// how many triangles came of it.
+/// Applies exactVertex(), dominantProject() (without a camera), exactClip() and exactSetUp() to a triangle; returns the
+/// number of resulting triangles.
 [[nodiscard]] std::size_t setUpLone(const PairJob& job, const LoneTriangle& lone,
                                     shader::ExactTriangle (&out)[EXACT_MAX_CORNERS]);
 
-/// What the fragments of a triangle meet: certain to be opaque (and in the image, where that is tested), clear, or
-/// not known.
+/// Classification of a triangle's fragments: certainly opaque (and in the image, if tested), certainly transparent, or
+/// unknown.
 [[nodiscard]] BrickClass triangleClass(const PairJob& job, const shader::ExactTriangle& triangle) noexcept;
 
-/// Whether a cluster certainly has no survivor: nothing of it is in the view volume, or it meets nothing opaque.
+/// Returns true if a cluster certainly has no passing fragment: it is outside the view volume, or meets nothing opaque.
 [[nodiscard]] bool isClear(const PairJob& job, std::size_t cluster) noexcept;
 
 } // namespace voxtact::cpu

@@ -11,7 +11,7 @@
 
 namespace voxtact::cpu {
 
-/// What a brick holds: bit 0, it may have an opaque sample; bit 1, all of its samples are opaque.
+/// Bits of a brick: 0, it may have an opaque sample; 1, all of its samples are opaque.
 enum BrickClass : std::uint8_t { kClearBrick = 0, kMixedBrick = 1, kOpaqueBrick = 3 };
 
 /// One volume under one transfer function and threshold.
@@ -19,13 +19,13 @@ class Occupancy {
   public:
     Occupancy(const VolumeImpl& volume, const TransferFunctionImpl& function, double threshold);
 
-    /// A byte for each brick, x fastest, and a few more: a look-up reads four.
+    /// One byte per brick, x fastest, and a few more: a lookup reads four.
     [[nodiscard]] const std::uint8_t* classes() const noexcept { return classes_.data(); }
-    /// What the bricks of a box hold together: eight look-ups.
+    /// Merges the bits of a box's bricks with eight lookups.
     [[nodiscard]] BrickClass within(const BrickBox& box) const noexcept;
-    /// Whether no sample of the volume is opaque.
+    /// Returns true if no sample of the volume is opaque.
     [[nodiscard]] bool nothingOpaque() const noexcept;
-    /// The opaque stored values; without useIntervals() the table must be looked up.
+    /// The opaque stored values; without useIntervals() the table decides.
     [[nodiscard]] std::span<const Interval> intervals() const noexcept { return set_.intervals(); }
     [[nodiscard]] bool useIntervals() const noexcept { return useIntervals_; }
     [[nodiscard]] const std::vector<float>& table() const noexcept { return table_; }

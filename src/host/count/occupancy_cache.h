@@ -11,7 +11,7 @@
 
 namespace voxtact::cpu {
 
-/// The occupancies that were asked for last. `Made` is made of a volume, a transfer function and numbers.
+/// Most recently used occupancies. `Made` is built from a volume, a transfer function and numbers.
 template <class Made, std::size_t Numbers> class OccupancyCache {
   public:
     template <class... Values>

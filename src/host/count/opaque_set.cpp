@@ -57,7 +57,7 @@ class Walk {
   private:
     enum class Verdict { Transparent, Opaque, Mixed };
 
-    /// The margin covers the rounding of exactLerp(); what is within it is examined float by float.
+    /// The margin covers the rounding of exactLerp(); values inside it are tested float by float.
     [[nodiscard]] Verdict verdictOf(std::size_t entry) const {
         constexpr float kMargin = 1e-5F;
         const float a = table_[entry];
@@ -68,7 +68,7 @@ class Walk {
         return std::min(a, b) > constants_.threshold + kMargin ? Verdict::Opaque : Verdict::Mixed;
     }
 
-    /// The first float that is looked up at this entry or a later one.
+    /// Returns the first float whose lookup uses this entry or a later one.
     [[nodiscard]] std::int64_t startOf(std::size_t entry) const {
         const auto size = static_cast<int>(table_.size());
         return firstThat(from_, end_, [&](std::int64_t order) {

@@ -23,12 +23,12 @@ class OpaqueSet {
     /// `constants` as itemConstants() makes them for stored values.
     OpaqueSet(std::span<const float> table, const shader::ItemConstants& constants);
 
-    /// Whether the intervals may be used: false when the constants overflow a float.
+    /// False if the constants overflow a float; the intervals must then not be used.
     [[nodiscard]] bool valid() const noexcept { return valid_; }
     [[nodiscard]] std::span<const Interval> intervals() const noexcept { return intervals_; }
-    /// Whether some value of a closed range is opaque. Expects valid().
+    /// Returns true if some value of a closed range is opaque. Expects valid().
     [[nodiscard]] bool meets(float lo, float hi) const noexcept;
-    /// Whether all of them are. Expects valid().
+    /// Returns true if all values of a closed range are opaque. Expects valid().
     [[nodiscard]] bool contains(float lo, float hi) const noexcept;
 
   private:

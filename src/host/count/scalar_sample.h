@@ -6,7 +6,7 @@
 
 namespace voxtact::cpu {
 
-/// Whether the bytes of an image can be reached with 32-bit offsets.
+/// Returns true if 32-bit offsets reach all bytes of an image.
 [[nodiscard]] bool fitsOffsets(const StoredImage& image) noexcept;
 
 /// The stored value at a coordinate within [0,1]^3, for images of any size.

@@ -146,7 +146,7 @@ HWY_INLINE void sortClusters(const PairJob& job, Scratch& scratch) {
         return;
     }
     const std::size_t lanes = hn::Lanes(Floats());
-    // From a multiple of the lanes, so that the padding ends the last load.
+    // Begins at a multiple of the lanes, so the padding covers the last load.
     for (std::size_t first = job.clusterBegin / lanes * lanes; first < job.clusterEnd; first += lanes) {
         boxClusters(job, first, scratch.cull);
         const std::size_t begin = std::max<std::size_t>(first, job.clusterBegin);

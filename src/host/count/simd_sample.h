@@ -64,7 +64,7 @@ template <class Kept> class Sampler {
         }
     }
 
-    /// How many lanes of `live` survive.
+    /// Returns the number of passing lanes in `live`.
     HWY_INLINE std::size_t survivors(FloatV x, FloatV y, FloatV z, FloatM live) const {
         const Floats d;
         const FloatV zero = hn::Zero(d);
@@ -77,7 +77,7 @@ template <class Kept> class Sampler {
                 return 0;
             }
         }
-        // Also where a lane is not live: whatever its coordinate is, it must be looked up within the image.
+        // Includes lanes that are not live: every lookup must stay in the image, whatever the coordinate.
         x = hn::IfThenElseZero(hn::Ge(x, zero), hn::Min(x, one));
         y = hn::IfThenElseZero(hn::Ge(y, zero), hn::Min(y, one));
         z = hn::IfThenElseZero(hn::Ge(z, zero), hn::Min(z, one));
@@ -155,7 +155,7 @@ template <class Kept> class Sampler {
         return hn::Ge(opacity, hn::Set(d, constants.threshold));
     }
 
-    /// For volumes that 32-bit offsets do not reach.
+    /// For volumes beyond the reach of 32-bit offsets.
     HWY_NOINLINE std::size_t oneByOne(FloatV x, FloatV y, FloatV z, FloatM live) const {
         const Floats d;
         HWY_ALIGN float coordinates[3][kMaxLanes];

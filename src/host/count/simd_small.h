@@ -133,7 +133,7 @@ template <class Covered> HWY_INLINE void forCovered(const SmallTriangles& triang
     }
 }
 
-/// What exactFragment() interpolates, one triangle a lane.
+/// Inputs of the interpolation in exactFragment(), one triangle per lane.
 struct Planes {
     FloatV q0, q1q0, q2q0;
     FloatV t[3], u[3], v[3];

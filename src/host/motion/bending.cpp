@@ -11,11 +11,11 @@ namespace voxtact::cpu {
 
 namespace {
 
-/// Of a coordinate: half a unit in the last place of a float, and what comes before it in double; or, of the smallest,
-/// an absolute one. Of three coordinates together less than twice as much.
+/// Relative error of a coordinate: half a unit in the last place of a float, plus earlier roundings in double; for the
+/// smallest numbers, an absolute error. Three coordinates together: less than twice as much.
 constexpr double kRelative = 0x1.01p-24;
 constexpr double kAbsolute = 0x1p-149;
-/// In double, where an offset is taken off: coordinates are at most a few times as large.
+/// In double, after subtracting an offset: coordinates are at most a few times as large.
 constexpr double kOfOffset = 0x1p-48;
 
 } // namespace
@@ -35,11 +35,11 @@ Bending::Bending(const MeshImpl& mesh, std::span<const double> from, std::span<c
     const bool areFloats = roundPositions(from, {}, floats_) == 0 && roundPositions(to, {}, floats_) == 0;
     shape_.origin.offset = areFloats ? Vec3{} : offsetOf(bounds);
     findReach();
-    // One that does not bend has the same floats at all parameters.
+    // A vertex that does not move has the same floats at all parameters.
     rounding_ = reach_.most > 0 ? 2 * roundingOf(bounds) : 0;
 }
 
-/// Of a coordinate.
+/// Returns the maximum rounding error of a coordinate.
 double Bending::roundingOf(const Box& bounds) const {
     double largest = 0;
     double offset = 0;

@@ -17,11 +17,11 @@ class Bending {
 
     /// Around all shapes on the way.
     [[nodiscard]] const Box& bounds() const noexcept { return shape_.facts.bounds; }
-    /// How far vertices go in all.
+    /// Maximum displacement of the vertices.
     [[nodiscard]] const VertexReach& reach() const noexcept { return reach_; }
-    /// No vertex at a parameter is farther from where it would be without rounding, object units.
+    /// Maximum rounding error of a vertex at any parameter, object units.
     [[nodiscard]] double rounding() const noexcept { return rounding_; }
-    /// The mesh at a parameter, as shapeBetween() has it; until the next call.
+    /// Returns the mesh at a parameter, as in shapeBetween(); valid until the next call.
     [[nodiscard]] const MeshImpl& at(double parameter);
 
   private:

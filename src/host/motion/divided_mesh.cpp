@@ -20,10 +20,10 @@ namespace {
 using glm::dvec3;
 using Corners = std::array<std::uint32_t, 3>;
 
-/// The longest side of a piece, of how far from the origin all of it is; and in any case, of how far the mesh reaches.
+/// Maximum side of a piece, relative to its distance from the origin, and relative to the extent of the mesh.
 constexpr double kOfDistance = 1.0 / 16;
 constexpr double kOfReach = 1.0 / 64;
-/// Where that makes more, pieces are larger.
+/// Maximum number of pieces; beyond it, they become larger.
 constexpr std::size_t kMostPieces = std::size_t{1} << 18;
 
 class Division {
@@ -73,7 +73,7 @@ class Division {
         return dvec3(from[0], from[1], from[2]) + offset_;
     }
 
-    /// Where its longest side is too long: into two, on that.
+    /// Splits a triangle at its longest side if that is too long.
     bool divide(const Corners& piece) {
         std::size_t longest = 0;
         double most = 0;

@@ -7,13 +7,13 @@
 
 namespace voxtact::cpu {
 
-/// What a mesh and the same one with its large triangles divided are off each other, of its largest coordinate.
+/// Largest relative deviation caused by subdivision, of the mesh's largest coordinate.
 inline constexpr double kDividedError = 0x1p-20;
 
-/// The mesh with its large triangles divided, in object space; null where none is large. A search that turns a mesh
-/// about its origin takes all of a triangle to go as far as its farthest corner. That says little of a triangle which
-/// is large for how far it is from the origin. The pieces have numbers of their own, not those of the mesh's triangles.
-/// Throws where memory runs out.
+/// Returns the mesh with its large triangles subdivided, in object space; null if none is large. A search that rotates
+/// a mesh about its origin bounds the motion of a triangle by that of its farthest corner, a weak bound for a triangle
+/// that is large relative to its distance from the origin. The pieces have their own indices. Throws if memory runs
+/// out.
 [[nodiscard]] std::unique_ptr<MeshImpl> dividedMesh(const MeshImpl& mesh);
 
 } // namespace voxtact::cpu

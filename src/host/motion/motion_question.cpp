@@ -26,10 +26,10 @@ Result<void> checkMotion(const Motion& question) {
     return checkFact(factOf("count", "resolution"), question.touchResolution);
 }
 
-/// Of all segments, in order.
+/// Segments of all items, in order.
 Result<std::vector<RigidMotion>> motionsOf(const Batch& batch, Interpolation interpolation,
                                            const Cancellation& cancel) {
-    constexpr std::size_t kBetween = 1024; // looks at the cancellation
+    constexpr std::size_t kBetween = 1024; // segments between two checks for cancellation
     std::vector<RigidMotion> motions;
     for (std::size_t i = 0; i < batch.items.size(); ++i) {
         const BatchItem& item = batch.items[i];
@@ -89,7 +89,7 @@ Result<void> checkShapes(const Batch& batch, std::span<const ShapesOfPoses> shap
     return {};
 }
 
-/// Those of a batch's meshes that are not there yet; others go.
+/// Caches the meshes of a batch; evicts others.
 void divideMeshes(const Batch& batch, std::map<std::uint64_t, std::unique_ptr<MeshImpl>>& divided) {
     for (const BatchItem& item : batch.items) {
         const MeshImpl& mesh = item.mesh->impl();

@@ -20,15 +20,15 @@ namespace {
 using glm::dmat4;
 using glm::dvec3;
 
-/// mm: what is known as well is not examined again.
+/// mm: stop when upper - lower is at most this.
 constexpr double kFinest = kDefaultTolerance / 4;
 constexpr double kRounding = 0x1p-40;
 /// mm: a point that is so near may be met, and that is tried.
 constexpr double kEnough = 1e-6;
-/// Of the largest coordinate, mm: a few dozen operations.
+/// Relative to the largest coordinate, mm: the rounding of a few dozen operations.
 constexpr double kRelativeError = 0x1p-44;
 
-/// No coordinate of the mesh, nor a term of one, is larger.
+/// Upper bound of the mesh's coordinates and their terms.
 double magnitudeOf(const PairAt& at) {
     const Box& bounds = at.mesh().facts.bounds;
     const dmat4 pose = toGlm(at.world_from_object);
@@ -58,10 +58,10 @@ void PoseToleranceSearch::run(PairTouch& out) const {
     }
     Sweep sweep;
     sweep.centre = origin_ + at_.part.space.middle;
-    // Rounded up: what is turned by exactly so much is among it.
+    // Rounded up, so a rotation by exactly the angle is included.
     sweep.turn = std::min(angle_ * (1 + kRounding), glm::pi<double>());
     const double magnitude = magnitudeOf(at_);
-    const double ofMesh = magnitude - glm::length(dvec3(toGlm(at_.world_from_object)[3])); // what is divided
+    const double ofMesh = magnitude - glm::length(dvec3(toGlm(at_.world_from_object)[3])); // extent of the divided mesh
     sweep.slack = distance_ * (1 + kRounding) + kRelativeError * magnitude +
                   (divided_ != nullptr ? kDividedError * (ofMesh + kRelativeError * magnitude) : 0);
     PairAt pieces = at_;
@@ -82,7 +82,7 @@ void PoseToleranceSearch::run(PairTouch& out) const {
     out.touch = hit ? Verdict::Yes : Verdict::Undecided;
 }
 
-/// By the points that the search found, or the closest of all.
+/// By the search's witness points, or the closest points of the pair.
 bool PoseToleranceSearch::isReached(const Found& swept) const {
     const auto triangleOf = [this](const Found& found) {
         return memory_.mesh.triangle(found.triangle / kClusterTriangles, found.triangle % kClusterTriangles);
@@ -109,7 +109,7 @@ bool PoseToleranceSearch::isReached(const Found& swept) const {
                        [&](const dvec3& corner) { return touchesAlong(corner, nearest); });
 }
 
-/// Turns and moves a point along a direction, as far as it may and then less far.
+/// Rotates and translates a point along a direction: as far as allowed, then less far.
 bool PoseToleranceSearch::touchesAlong(const dvec3& onMesh, const dvec3& direction) const {
     const dvec3 arm = onMesh - origin_;
     const dvec3 axis = glm::cross(arm, direction);
@@ -136,7 +136,7 @@ bool PoseToleranceSearch::touchesAt(const glm::dmat3& turn, const dvec3& offset)
     return PairAt{at_.item, at_.part, fromGlm(pose), at_.cancel}.touch(point).certain > 0;
 }
 
-/// Turns the point towards the other and moves it there, as far as it may; then on into what is opaque.
+/// Rotates the point towards the other, translates it there as far as allowed, and further into the opaque region.
 bool PoseToleranceSearch::touches(const dvec3& onMesh, const dvec3& inVolume) const {
     const dvec3 arm = onMesh - origin_;
     const dvec3 wanted = inVolume - origin_;

@@ -6,10 +6,10 @@
 
 namespace voxtact::cpu {
 
-/// Whether a mesh touches at some pose that is off by no more than a tolerance, on one thread.
+/// Decides on one thread whether a mesh touches at some pose within an uncertainty.
 ///
-/// No: the mesh, swept to all those places (Sweep), is apart from what is opaque. Yes: one of a few such poses, which
-/// bring a point of the mesh to an opaque one that is near, touches.
+/// No: the mesh, swept over all these poses (Sweep), is apart from the opaque region. Yes: one of a few poses, which
+/// move a point of the mesh to a near opaque point, touches.
 class PoseToleranceSearch {
   public:
     /// All must live as long as it. `divided`: dividedMesh() of the pair's mesh; null where that is, or for a tolerance

@@ -9,16 +9,16 @@ namespace voxtact::cpu {
 
 namespace {
 
-/// Of the resolution, a piece that is not halved any more: a touch that begins just where two of them meet is seen in
-/// the middle of the second.
+/// Smallest piece, relative to the resolution: a touch that begins where two pieces meet is found at the middle of the
+/// second.
 constexpr double kLastPiece = 0.25;
-/// Where a graze has been found, only a touch is still looked for, at places that are this part of the way from there.
+/// After a graze, only a touch is searched for, at steps of this fraction of the distance from it.
 constexpr double kCoarser = 0.5;
-/// Of the length of a piece: no box of a volume is examined that is smaller, unless the piece is not halved any more.
+/// Smallest box of the volume, relative to the length of a piece, unless the piece is not halved any more.
 constexpr double kFinestBox = 0.0625;
 
-/// No unit vector is longer after a pose, nor after one that differs from it by a motion: the square of that is at most
-/// a sum in a row of the symmetric matrix that has the squares of lengths.
+/// Upper bound of the length of a unit vector after a pose, or after a pose that differs by a motion: its square is at
+/// most a row sum of the symmetric matrix of squared lengths.
 double scaleOf(const Mat4& pose) {
     double most = 0;
     for (std::size_t row = 0; row < 3; ++row) {
@@ -117,11 +117,11 @@ void SegmentSearch::look(const Interval& interval, SegmentMotion& out) {
         return;
     }
     if (last) {
-        // What follows is examined in its own middle, unless nothing does.
+        // The next piece is tested at its own middle, unless there is none.
         static_cast<void>(touches(interval.middle(), out) || (interval.to == 1 && touches(1, out)));
         return;
     }
-    // What was apart all the time is so in each half.
+    // A pair that is apart during the whole piece is apart in each half.
     const auto open = std::make_shared<const OpenPairs>(memory_.search.left());
     if (!(seen.isMet && touches(interval.middle(), out))) {
         left_.push_back({interval.middle(), interval.to, open});

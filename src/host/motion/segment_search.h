@@ -10,10 +10,11 @@
 
 namespace voxtact::cpu {
 
-/// One segment on one thread: halves of it, the earliest first, until each is free or has no more than the resolution.
+/// Searches one segment on one thread: halves it, the earliest half first, until each piece is free or at most as long
+/// as the resolution.
 ///
-/// A half is free where the mesh at its middle, swept as far as it moves in half of it (Sweep), is apart from what is
-/// opaque. Nothing is sampled: what is called free is free at all of its poses.
+/// A piece is free if the mesh at its middle, swept over its motion in that piece (Sweep), is apart from the opaque
+/// region. No sampling: a free piece is free at all of its poses.
 class SegmentSearch {
   public:
     /// All must live as long as it. `bending`: of the mesh on its way; null: it does not bend.
@@ -26,7 +27,7 @@ class SegmentSearch {
     struct Interval {
         double from = 0;
         double to = 1;
-        /// What of mesh and volume may meet in it; null: all.
+        /// Pairs of mesh and volume that may meet in the piece; null: all.
         std::shared_ptr<const OpenPairs> open{};
 
         [[nodiscard]] double middle() const noexcept { return 0.5 * (from + to); }
@@ -38,10 +39,10 @@ class SegmentSearch {
     /// The mesh there.
     [[nodiscard]] PairAt pairAt(double parameter) const;
     [[nodiscard]] const Box& bounds() const;
-    /// How near what is opaque comes to the mesh in an interval.
+    /// Proximity of the opaque region to the mesh in an interval.
     struct Seen {
         bool isFree = false;
-        bool isMet = false; ///< it seems that some of it is met
+        bool isMet = false; ///< a pair seems to meet
     };
     [[nodiscard]] Seen see(const Interval& interval, bool last);
     /// The poses after it are not examined any more.
@@ -59,7 +60,7 @@ class SegmentSearch {
     double speed_;               ///< mm for the whole segment: of the fastest point
     double deformation_;         ///< mm: RigidMotion::deformation()
     double rounding_;            ///< mm, of a pose and of vertices
-    std::uint64_t steps_ = 0;    ///< so far
+    std::uint64_t steps_ = 0;    ///< iterations so far
     std::vector<Interval> left_; ///< the earliest at the end
 };
 

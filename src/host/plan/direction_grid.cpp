@@ -15,7 +15,7 @@ using glm::dvec3;
 
 constexpr std::uint32_t kColumns = 5; ///< of an upper and a lower rhombus each
 
-/// Of the two rings of an icosahedron's corners, between its poles at +-z.
+/// Coordinates of the two rings of an icosahedron's corners, between its poles at +-z.
 dvec3 ringCorner(bool upper, std::uint32_t column) {
     const double height = (upper ? 1 : -1) / std::sqrt(5.0);
     const double radius = 2 / std::sqrt(5.0);
@@ -38,7 +38,7 @@ DirectionGrid::DirectionGrid(std::uint32_t directions) {
     }
 }
 
-/// Each rhombus has the vertices from (1, 0) to (n, n - 1) for its own; the poles are the first two numbers.
+/// Each rhombus owns the vertices from (1, 0) to (n, n - 1); the poles are the first two.
 std::uint32_t DirectionGrid::number(std::uint32_t rhombus, std::uint32_t i, std::uint32_t j) const noexcept {
     const std::uint32_t n = side_;
     const std::uint32_t column = rhombus % kColumns;
@@ -78,8 +78,8 @@ std::array<std::array<std::uint32_t, 3>, 2> DirectionGrid::triangles(std::uint32
     return {{{number(rhombus, i, j), right, up}, {number(rhombus, i + 1, j + 1), up, right}}};
 }
 
-/// The patch is flat but for the ridge: it is in the convex hull of its corners and of where the ridge meets its edges,
-/// and a cone of less than a right angle that holds points holds what is between them.
+/// The patch is flat except at the ridge, so it lies in the convex hull of its corners and of the points where the
+/// ridge meets its edges. A cone of less than a right angle that contains points contains their hull.
 DirectionCone DirectionGrid::cone(const DirectionPatch& patch) const {
     constexpr double kRounding = 1e-9; // radians, much more than all roundings here and in entries
     const auto& lo = patch.lo;

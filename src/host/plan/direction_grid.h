@@ -38,7 +38,7 @@ class DirectionGrid {
     [[nodiscard]] std::uint32_t count() const noexcept { return kRhombi * side_ * side_ + 2; }
     /// Number of a vertex; those on its edges belong to neighbours, too.
     [[nodiscard]] std::uint32_t number(std::uint32_t rhombus, std::uint32_t i, std::uint32_t j) const noexcept;
-    /// Of length 1, but for roundings; the same for a number, however it was come by.
+    /// Returns a unit vector up to rounding, always the same for an index.
     [[nodiscard]] glm::dvec3 direction(std::uint32_t number) const noexcept;
     /// Numbers of the corners of the two triangles of the cell that begins at a vertex, counter-clockwise from outside.
     [[nodiscard]] std::array<std::array<std::uint32_t, 3>, 2> triangles(std::uint32_t rhombus, std::uint32_t i,

@@ -17,7 +17,7 @@ namespace {
 
 using glm::dvec3;
 
-constexpr double kStep = 0.25; // voxels, along the ray: what is thinner may be passed over
+constexpr double kStep = 0.25; // voxels along the ray: thinner layers may be missed
 
 /// A ray from a target, in the voxels of a grid.
 struct VoxelRay {
@@ -41,10 +41,10 @@ struct VoxelRay {
     }
 };
 
-/// Where a ray from the target is last in something.
+/// The outermost point of a region on a ray from the target.
 struct Outermost {
-    double distance = 0;  ///< mm; 0: it nowhere is
-    bool isAtEnd = false; ///< the grid ends there, or in air within the thing: nobody can enter
+    double distance = 0;  ///< mm; 0: the ray misses the region
+    bool isAtEnd = false; ///< the grid ends there, or in air inside the region: no entry
 };
 
 /// The largest distance at which `inside(centred voxel)`, examined in steps from outside.
@@ -54,7 +54,7 @@ template <class Inside> Outermost outermost(const VoxelRay& ray, const Inside& i
     const double nearest = std::max(ray.begin, kNearestEntry);
     double outside = ray.end;
     double number = 0;
-    // Where a step is less than what rounding leaves of the distance, the steps still end.
+    // Steps stay above the rounding of the distance, so they end.
     for (double at = ray.end; at > nearest; at = ray.end - ++number * step) {
         if (!inside(ray.from + at * ray.way)) {
             outside = at;
@@ -70,7 +70,7 @@ template <class Inside> Outermost outermost(const VoxelRay& ray, const Inside& i
     return {};
 }
 
-/// Whether a point is opaque, up to rounding.
+/// Returns true if a point is opaque, up to rounding.
 bool isOpaque(const OpaquePart& part, const VolumeImpl& volume, const dvec3& voxel) {
     NodePlace padded{};
     NodePlace brick{};
@@ -87,8 +87,8 @@ bool isOpaque(const OpaquePart& part, const VolumeImpl& volume, const dvec3& vox
     return part.intervals.contain(value - cell.error, value + cell.error);
 }
 
-/// Of the outermost voxels of an image, those outside of the thing: they lead, over others of them, to an edge of the
-/// image. Air that the thing encloses there, such as the windpipe where a scan ends at the neck, is within the body.
+/// Marks the border voxels outside the region that connect, over other such voxels, to an edge of the image. Air that
+/// the region encloses at the border, such as the windpipe where a scan ends at the neck, is inside the body.
 class Outside {
   public:
     /// `inside(centred voxel)`
@@ -127,8 +127,7 @@ class Outside {
         }
     }
 
-    /// Of the outermost voxel at a place on the border, in centred voxels; where that voxel is inside, of one beside
-    /// it.
+    /// The border voxel at a position, in centred voxel coordinates; if it is inside, one beside it.
     template <class Inside> [[nodiscard]] bool has(const dvec3& voxel, const Inside& inside) const {
         Place place{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -187,7 +186,7 @@ class EntrySearch {
         }
     }
 
-    /// From the target.
+    /// Finds the outermost point in a direction from the target.
     [[nodiscard]] Outermost along(const dvec3& direction) const {
         if (!part_ && !space_) {
             return {surface_.radius, false};
@@ -224,7 +223,7 @@ class EntrySearch {
     std::optional<Outside> outside_;   ///< nothing where entries on the border are wanted
 };
 
-/// Of the surface that the triangles between the entries make: the mean of those around an entry, by their areas.
+/// Normal of the surface at an entry: the mean over the adjacent entry triangles, weighted by area.
 std::vector<dvec3> normalsOf(const PlanScene& scene) {
     std::vector<dvec3> normals(scene.entries.size());
     forEntryTriangles(scene, [&](auto, auto, auto, auto, const std::array<std::uint32_t, 3>& triangle) {

@@ -12,7 +12,7 @@ constexpr double kNearlyRightAngle = 1.5; // radians, somewhat less: of cones as
 /// A patch that is not soon known to be safe is halved, which makes it easier.
 constexpr std::uint64_t kSoon = 200;
 constexpr std::uint64_t kMost = 5000; // of a cell, which is not halved
-/// Of how far the paths of a patch are apart: what is smaller is not divided.
+/// Relative to the spread of a patch's paths: smaller boxes are not divided.
 constexpr double kFinestPart = 1.0 / 8;
 
 } // namespace
@@ -52,8 +52,8 @@ Sweep PatchCertificate::sweepOf(const DirectionCone& cone) const {
     return sweep;
 }
 
-/// Whether all paths in the patch, from entries no farther than the longest, keep clear. What an earlier look at a
-/// patch around this one has left open is examined, and `open` is what this one leaves.
+/// Returns true if all paths in the patch, from entries up to the longest, keep clear. Tests the pairs that an
+/// enclosing patch left open; `open` receives those that this one leaves.
 bool PatchCertificate::isApart(const DirectionPatch& patch, double longest, Open& open) {
     const DirectionCone cone = scene_.grid.cone(patch);
     if (!(cone.angle < kNearlyRightAngle)) {
@@ -83,7 +83,7 @@ bool PatchCertificate::isApart(const DirectionPatch& patch, double longest, Open
     return apart;
 }
 
-void PatchCertificate::look(const DirectionPatch& patch, Open open, std::vector<EntryTriangle>& triangles) {
+void PatchCertificate::certify(const DirectionPatch& patch, Open open, std::vector<EntryTriangle>& triangles) {
     const Contents contents = contentsOf(patch);
     if (!contents.some || scene_.givenUp()) {
         return;
@@ -99,12 +99,12 @@ void PatchCertificate::look(const DirectionPatch& patch, Open open, std::vector<
     DirectionPatch first = patch;
     DirectionPatch second = patch;
     first.hi[axis] = second.lo[axis] = patch.lo[axis] + patch.cells(axis) / 2;
-    look(first, open, triangles);
-    look(second, std::move(open), triangles);
+    certify(first, open, triangles);
+    certify(second, std::move(open), triangles);
 }
 
-/// The search's upper bound is only about right for what is turned, and serves to end it: what it closes by that, its
-/// lower bound counts in.
+/// The upper bound of the search is approximate for rotated objects and only ends the search; the lower bound accounts
+/// for the pairs that it prunes.
 double PatchCertificate::clearanceOf(const DirectionPatch& cell, double longest, double most) {
     const DirectionCone cone = scene_.grid.cone(cell);
     if (!(cone.angle < kNearlyRightAngle)) {
@@ -157,7 +157,7 @@ void PatchCertificate::measure(const DirectionPatch& cell, std::vector<EntryTria
 }
 
 void PatchCertificate::run(const DirectionPatch& patch, std::vector<EntryTriangle>& triangles) {
-    look(patch, Open(scene_.obstacles.size()), triangles);
+    certify(patch, Open(scene_.obstacles.size()), triangles);
     if (!scene_.task.triangleDistances) {
         return;
     }

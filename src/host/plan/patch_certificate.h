@@ -29,9 +29,9 @@ class TrianglePlaces {
     std::vector<std::uint32_t> places_; ///< in PlanAnswer::triangles
 };
 
-/// Says of patches of directions that all their paths are safe, on one thread: all of the axis's ways in a cone are one
-/// sweep, its turns about the target, and where that keeps clear of what is within the margin, so do they. Else the
-/// patch is halved.
+/// Proves on one thread that all paths in a patch of directions are safe. All positions of the axis in a cone are one
+/// sweep, its rotations about the target; if the sweep keeps clear of the obstacles, the paths do. Otherwise the patch
+/// is halved.
 class PatchCertificate {
   public:
     /// All must live as long as it. `paths` by the numbers of their directions, null where there is none.
@@ -43,7 +43,7 @@ class PatchCertificate {
     void run(const DirectionPatch& patch, std::vector<EntryTriangle>& triangles);
 
   private:
-    /// What is known of each obstacle: where a search is to begin; null: everywhere.
+    /// Start of a search for each obstacle; null: everything.
     using Open = std::vector<std::shared_ptr<const OpenPairs>>;
     struct Contents {
         bool some = false;  ///< there is a triangle whose corners are all safe
@@ -54,10 +54,10 @@ class PatchCertificate {
     /// Calls `visit(corners, place)` for the triangles of a patch.
     template <class Visit> void forTriangles(const DirectionPatch& patch, const Visit& visit) const;
     [[nodiscard]] bool isApart(const DirectionPatch& patch, double longest, Open& open);
-    void look(const DirectionPatch& patch, Open open, std::vector<EntryTriangle>& triangles);
-    /// All of the axis's ways in a cone, from entries no farther than the longest.
+    void certify(const DirectionPatch& patch, Open open, std::vector<EntryTriangle>& triangles);
+    /// All positions of the axis in a cone, from entries up to the longest.
     [[nodiscard]] Sweep sweepOf(const DirectionCone& cone) const;
-    /// mm that all paths in a cell certainly keep; looked for up to `most`.
+    /// mm: lower bound of the distance of all paths in a cell, up to `most`.
     [[nodiscard]] double clearanceOf(const DirectionPatch& cell, double longest, double most);
     void measure(const DirectionPatch& cell, std::vector<EntryTriangle>& triangles);
 

@@ -42,7 +42,7 @@ Found PathMeasure::search(const Way& way, std::size_t obstacle, SearchGoal goal)
     return found;
 }
 
-/// What is nearer than all that was found before.
+/// Keeps the point if it is nearer than all earlier ones.
 void PathMeasure::take(const Found& found, std::size_t obstacle, PlannedPath& out) const {
     const double hi = found.hi - scene_.radius + scene_.slack;
     if (!(hi < out.clearance.upper)) {
@@ -76,7 +76,7 @@ void PathMeasure::measure(const Way& way, PlannedPath& out) {
         out.clearance.lower = std::min(out.clearance.lower, std::max(lo, 0.0));
     }
     out.clearance.lower = std::min(out.clearance.lower, out.clearance.upper);
-    // Beyond the maximum nothing is said, found or not.
+    // Beyond the maximum there is no result, found or not.
     if (out.clearance.lower >= desc.maximum - 2 * scene_.slack) {
         out.clearance = {std::min(out.clearance.lower, desc.maximum), kInfinity};
         out.nearest.reset();
@@ -113,7 +113,7 @@ void PathMeasure::decide(const Way& way, PlannedPath& out) {
         lo = std::min(lo, found.lo - scene_.radius - scene_.slack);
         exhausted = exhausted || found.exhausted;
     }
-    // What was not asked about says nothing of how near it is.
+    // Labels that were not requested do not affect the distance.
     if (i == scene_.obstacles.size()) {
         out.clearance.lower = std::max(out.clearance.lower, lo);
     }

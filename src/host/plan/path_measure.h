@@ -5,11 +5,11 @@
 
 namespace voxtact::cpu {
 
-/// How near paths come to obstacles, one after the other, on one thread: what was near to one path is examined first
-/// for the next.
+/// Measures distances of paths from obstacles, one after the other, on one thread: tests the obstacle nearest to the
+/// last path first.
 class PathMeasure {
   public:
-    /// Both must live as long as it.
+    /// Both must outlive it.
     PathMeasure(const PlanScene& scene, ThreadMemory& memory)
         : scene_(scene), memory_(memory), known_(scene.obstacles.size()) {}
 
@@ -24,7 +24,7 @@ class PathMeasure {
     [[nodiscard]] Found search(const Way& way, std::size_t obstacle, SearchGoal goal);
     void measure(const Way& way, PlannedPath& out);
     void decide(const Way& way, PlannedPath& out);
-    /// Of bounds that are not beyond the maximum, or are nothing's.
+    /// Returns why the search stopped, for bounds below the maximum or infinite ones.
     [[nodiscard]] StopReason endOf(const Bounds& clearance, bool exhausted) const;
     void take(const Found& found, std::size_t obstacle, PlannedPath& out) const;
 

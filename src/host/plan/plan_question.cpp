@@ -21,7 +21,7 @@ using glm::dvec3;
 
 /// mm: a smaller margin is taken for as much.
 constexpr double kLeastMargin = 1e-6;
-/// Of the largest coordinate, mm: a way is made of a few dozen operations.
+/// Relative to the largest coordinate, mm: the rounding of a path's few dozen operations.
 constexpr double kSlackOfMagnitude = 0x1p-44;
 /// Directions of a piece of work.
 constexpr std::uint32_t kBlock = 16;
@@ -65,7 +65,7 @@ double largestLength(const PlanScene& scene) {
     return longest;
 }
 
-/// No coordinate of what moves, nor a term of one, is larger, mm.
+/// Upper bound of the moving object's coordinates and their terms, mm.
 double magnitudeOf(const PlanScene& scene) {
     const Plan& task = scene.task;
     double sum = std::abs(task.target[0]) + std::abs(task.target[1]) + std::abs(task.target[2]);

@@ -17,8 +17,7 @@ namespace {
 using glm::dmat3;
 using glm::dvec3;
 
-/// That of two directions which are no farther apart than a right angle: beyond that, what is left of 1 + cos is more
-/// and more rounding.
+/// Rotation between two directions up to a right angle apart: beyond, 1 + cos loses precision.
 dmat3 sharpTurn(const dvec3& from, const dvec3& to) {
     const dvec3 axis = glm::cross(from, to);
     return glm::mat3_cast(glm::normalize(glm::dquat(1 + glm::dot(from, to), axis.x, axis.y, axis.z)));
@@ -29,7 +28,7 @@ dmat3 smallestTurn(const dvec3& from, const dvec3& to) {
     if (glm::dot(from, to) >= 0) {
         return sharpTurn(from, to);
     }
-    // Half a turn about what is perpendicular to both, and then the little that is missing.
+    // Half a turn about a perpendicular axis, then the small remaining rotation.
     dvec3 axis = glm::cross(from, to);
     if (glm::length(axis) == 0) {
         axis = glm::cross(from, std::abs(from.x) < 0.5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0));
@@ -85,7 +84,7 @@ Mat4 PlanScene::axisPose(const dvec3& direction, double entry) const {
 
 Mat4 PlanScene::meshPose(const dvec3& direction, double entry, Sweep& sweep) const {
     const Vec3& held = task.mesh->axis;
-    // By what neither overflows nor underflows, and then to the last digit.
+    // Normalises without overflow or underflow, then to the last digit.
     const dvec3 along = toGlm(held) / std::hypot(held[0], held[1], held[2]);
     const dmat3 turn = smallestTurn(glm::normalize(along), direction);
     sweep.offset = 0.5 * entry * direction;

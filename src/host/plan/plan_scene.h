@@ -14,7 +14,7 @@
 
 namespace voxtact::cpu {
 
-/// What one obstacle is, as a search sees it.
+/// An obstacle in the form of a search.
 struct Obstacle {
     const PlanObstacle* given = nullptr;
     std::shared_ptr<const OpaquePart> part;
@@ -23,11 +23,11 @@ struct Obstacle {
     [[nodiscard]] SearchedPart searched() const {
         return labels ? SearchedPart(*labels, *given->labels) : SearchedPart(*part);
     }
-    /// The label at a point of it, local: of two that share a face one that is avoided.
+    /// Returns the label at a point of the obstacle, local; on a face between two labels, one to avoid.
     [[nodiscard]] std::int32_t labelAt(const glm::dvec3& local) const;
 };
 
-/// Where a direction enters.
+/// Entry point of a direction.
 struct EntryPoint {
     std::uint32_t number = 0; ///< of the direction
     bool isThere = false;
@@ -54,7 +54,7 @@ struct PlanScene {
     [[nodiscard]] double axisEnd(double entry) const { return entry + task.needle.length - radius; }
     /// world_from_object of `axis` along a direction.
     [[nodiscard]] Mat4 axisPose(const glm::dvec3& direction, double entry) const;
-    /// That of the mesh half way in, and how it moves.
+    /// Position of the mesh at the middle of its path, and its motion.
     [[nodiscard]] Mat4 meshPose(const glm::dvec3& direction, double entry, Sweep& sweep) const;
     [[nodiscard]] bool givenUp() const { return cancel.seen(); }
 };

@@ -38,7 +38,7 @@ class ClusterTree {
     }
 
     [[nodiscard]] std::uint32_t levels() const noexcept { return static_cast<std::uint32_t>(levels_.size()); }
-    /// Of a level, from 0.
+    /// Returns the boxes of a level, from 0.
     [[nodiscard]] std::span<const RunBox> boxes(std::uint32_t level) const noexcept { return levels_[level]; }
 
   private:

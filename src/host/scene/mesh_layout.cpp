@@ -38,7 +38,7 @@ void addTriangles(MeshImpl& mesh, std::span<const std::array<std::uint8_t, 3>> t
     }
 }
 
-/// Of a cluster along an axis.
+/// Sets the range of a cluster along an axis.
 void setBox(std::size_t cluster, float lo, float hi, std::vector<float>& centres, std::vector<float>& halves) {
     // Halves first: the sum of two large floats may overflow.
     const float centre = lo / 2 + hi / 2;
@@ -86,7 +86,7 @@ std::vector<RunBox> runsAt(const MeshImpl& mesh, std::span<const float> position
     return runs;
 }
 
-/// Of a run that begins with triangle `at`.
+/// Adds the vertices of the run that begins with triangle `at`.
 void addRunVertices(const MeshImpl& mesh, std::uint32_t at, RunVertices& out) {
     std::array<bool, 3 * std::size_t{kClusterTriangles}> seen{};
     out.first.push_back(static_cast<std::uint32_t>(out.corner.size()));

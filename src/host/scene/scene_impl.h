@@ -45,7 +45,7 @@ inline constexpr std::uint32_t kMeshAlignment = 16;
 
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffU;
 
-/// Where a cluster's vertices and triangles are in MeshImpl's arrays, padding included.
+/// Ranges of a cluster's vertices and triangles in MeshImpl's arrays, including padding.
 struct ClusterPlace {
     std::uint32_t firstVertex = 0;
     std::uint32_t vertexCount = 0;
@@ -58,7 +58,7 @@ struct ClusterPlace {
 struct RunVertices {
     std::vector<std::uint32_t> first;   ///< of each run, and behind the last
     std::vector<std::uint8_t> corner;   ///< vertex of the cluster
-    std::vector<std::uint8_t> triangle; ///< of the run: one that has it
+    std::vector<std::uint8_t> triangle; ///< local index of one triangle with this vertex
 };
 
 struct MeshImpl {

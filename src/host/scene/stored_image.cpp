@@ -11,7 +11,7 @@ namespace voxtact::cpu {
 
 namespace {
 
-/// A look-up of two neighbours reads four bytes.
+/// A lookup of two neighbours reads four bytes.
 constexpr std::size_t kBytesBehind = 4;
 
 std::uint8_t keep(std::uint8_t voxel) {
@@ -26,7 +26,7 @@ std::uint16_t keep(std::int16_t voxel) {
 float keep(float voxel) {
     return voxel;
 }
-/// What keep() was given.
+/// Inverts keep().
 template <class Scalar> Scalar kept(decltype(keep(Scalar{})) voxel) {
     if constexpr (std::is_same_v<Scalar, std::int16_t>) {
         return static_cast<std::int16_t>(static_cast<int>(voxel) - 32768);
@@ -80,7 +80,7 @@ struct Extent {
     std::int64_t end;
 };
 
-/// Where voxels of the image are kept: the outermost ones twice.
+/// Range of stored voxels; the outermost ones are stored twice.
 Extent copiesOf(std::uint32_t first, std::uint32_t end, std::int32_t size) {
     const bool last = end == static_cast<std::uint32_t>(size);
     return {first == 0 ? 0 : std::int64_t{first} + 1, std::int64_t{end} + (last ? 2 : 1)};

@@ -14,7 +14,7 @@ namespace voxtact::cpu {
 /// Voxels of a side, beyond which a float cannot tell one from the next.
 inline constexpr std::uint32_t kMaxSide = 1U << 23U;
 
-/// How the voxels of a StoredImage are kept.
+/// Layout of the voxels in a StoredImage.
 enum class Stored { UInt8, UInt16, Float };
 
 /// The voxels as the exact arithmetic sees them, with one more layer on every side that repeats the outermost one. The
@@ -23,8 +23,8 @@ enum class Stored { UInt8, UInt16, Float };
 struct StoredImage {
     explicit StoredImage(const VolumeView& volume);
 
-    /// Replaces a row of voxels, wherever it is repeated too, by voxels of the type that the image was made from:
-    /// `voxels` is the first of them, and the next is `step` bytes further on; 0: the same again.
+    /// Replaces a row of voxels, including its copies, by voxels of the original type: `voxels` is the first one, the
+    /// next is `step` bytes further on; 0: repeats the first.
     void replace(const VoxelRow& row, ScalarType from, const std::byte* voxels, std::size_t step);
     /// The voxels of a row, of the type that the image was made from, one after the other.
     void copy(const VoxelRow& row, ScalarType as, std::byte* voxels) const;
@@ -32,7 +32,7 @@ struct StoredImage {
     Stored type = Stored::UInt8;
     std::array<std::int32_t, 3> size{};   ///< voxels of the image
     std::array<std::int64_t, 3> stride{}; ///< in voxels of the padded image
-    std::vector<std::byte> bytes;         ///< a few more than the voxels, so that a look-up may read beyond them
+    std::vector<std::byte> bytes;         ///< includes padding, so lookups may read beyond the voxels
 
     template <class Visitor> auto visit(Visitor&& visitor) const {
         const void* first = bytes.data();

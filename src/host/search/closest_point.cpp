@@ -23,7 +23,7 @@ dvec3 onSegment(const dvec3& a, const dvec3& b, const dvec3& from) {
     return square > 0 ? a + share(dot(from - a, ab), square) * ab : a;
 }
 
-/// Of a triangle that is about a segment.
+/// For a degenerate triangle.
 dvec3 onEdges(const WorldTriangle& triangle, const dvec3& from) {
     dvec3 best = triangle[0];
     for (std::size_t i = 0; i < 3; ++i) {
@@ -37,7 +37,8 @@ dvec3 onEdges(const WorldTriangle& triangle, const dvec3& from) {
 
 } // namespace
 
-/// By the region of the plane that the point is over (Ericson, "Real-Time Collision Detection", 2005, section 5.1.5).
+/// By the region of the plane above which the point lies (Ericson, "Real-Time Collision Detection", 2005, section
+/// 5.1.5).
 dvec3 closestPoint(const WorldTriangle& triangle, const dvec3& from) noexcept {
     const auto& [a, b, c] = triangle;
     const dvec3 ab = b - a;

@@ -9,7 +9,7 @@ namespace voxtact::cpu {
 
 using WorldTriangle = std::array<glm::dvec3, 3>;
 
-/// Of the product of two sides' squares: a triangle's area in square is no smaller, or it has none.
+/// Relative to the product of two squared sides: a triangle with a smaller squared area is degenerate.
 inline constexpr double kNoArea = 1e-20;
 
 /// A point of the triangle, its corners' mean with weights from 0 to 1: the one closest to `from`, up to rounding.

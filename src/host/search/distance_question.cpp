@@ -67,7 +67,7 @@ StopReason endOf(const Bounds& bounds, const Found& found, double tolerance) {
     return closed ? StopReason::Closed : (found.exhausted ? StopReason::Budget : StopReason::Rounding);
 }
 
-/// Both are set: the maximum is not reached.
+/// Sets both if the maximum is reached.
 bool isBeyond(const Distance& question, Bounds& bounds, StopReason& end) {
     if (!(bounds.lower >= question.maximum && bounds.lower < kInfinity)) {
         return false;
@@ -109,7 +109,7 @@ void measureLabel(const PairAt& at, const SearchedPart& searched, const Distance
     }
 }
 
-/// Each once, however often it is asked for; numbers of labels that the map does not have are left out.
+/// Returns each label's index once; skips labels that the map does not have.
 std::vector<std::uint32_t> indicesOf(const LabelData& labels, std::span<const std::int32_t> wanted) {
     std::vector<std::uint32_t> indices;
     for (const std::int32_t label : wanted) {

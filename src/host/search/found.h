@@ -11,9 +11,9 @@
 
 namespace voxtact::cpu {
 
-/// What a computed distance says of the true one, mm.
+/// Error bound of a computed distance, mm.
 struct DistanceError {
-    /// Of the distance itself: the last roundings, which do not depend on where things are.
+    /// Relative to the distance: the last roundings, which do not depend on positions.
     static constexpr double kRelative = 0x1p-40;
 
     [[nodiscard]] double below(double distance) const noexcept {
@@ -24,10 +24,10 @@ struct DistanceError {
     double absolute = 0;
 };
 
-/// What a search found. Distances in mm.
+/// Result of a search. Distances in mm.
 struct Found {
     double lo = kInfinity;                ///< no opaque point is nearer
-    double hi = kInfinity;                ///< some opaque point is no farther
+    double hi = kInfinity;                ///< an opaque point is at most this far
     bool exhausted = false;               ///< mostSteps ended it
     std::uint32_t triangle = kNoTriangle; ///< the closest one, by its place in the mesh's arrays; with hi finite
     glm::dvec3 onMesh{};                  ///< local
@@ -35,8 +35,8 @@ struct Found {
     bool isOpaque = false; ///< inVolume is: not only some point about there
     std::uint64_t steps = 0;
 
-    /// Some opaque point is no farther from a triangle than that: about `volume`, or just there where that is `opaque`,
-    /// and about there on it.
+    /// Offers an opaque point at this distance from a triangle: near `volume`, or exactly there if `opaque`, and near
+    /// `mesh` on the triangle.
     void offer(double distance, std::uint32_t number, const glm::dvec3& mesh, const glm::dvec3& volume,
                bool opaque) noexcept {
         if (distance < hi) {

@@ -20,7 +20,7 @@ struct CellRegion {
     glm::dvec3 hi{};
 };
 
-/// Where a piece of a cell is: the piece is 2^-depth of the cell's part in the domain a side.
+/// Position of a piece in a cell: its side is 2^-depth of that of the cell's part in the domain.
 struct PiecePlace {
     NodePlace cell{}; ///< padded number
     std::uint8_t depth = 0;
@@ -29,12 +29,12 @@ struct PiecePlace {
 
 /// Some labels of a map.
 struct LabelSet {
-    BrickPyramid pyramid;           ///< the bricks that may be opaque and have one of them
+    BrickPyramid pyramid;           ///< bricks that may be opaque and have one of the labels
     std::vector<std::uint8_t> with; ///< by LabelData::values: not zero for those of the set
 };
 
-/// What is opaque, all of it or what has one of some labels. Labels are constant in the boxes around voxel centres,
-/// which are closed: a cell has eight of them, and a face between two labels belongs to both. Thread-safe.
+/// The searched region: the opaque region, or its part with some labels. Labels are constant in the closed boxes around
+/// voxel centres: a cell overlaps eight of them, and a face between two labels belongs to both. Thread-safe.
 class SearchedPart {
   public:
     explicit SearchedPart(const OpaquePart& part) : pyramid_(&part.pyramid) {}
@@ -43,10 +43,10 @@ class SearchedPart {
         : pyramid_(&set.pyramid), labels_(&labels), with_(set.with.data()) {}
 
     [[nodiscard]] const BrickPyramid& pyramid() const noexcept { return *pyramid_; }
-    /// Whether some of a piece belongs to it.
+    /// Returns true if a part of a piece belongs to the region.
     [[nodiscard]] bool meets(const PiecePlace& place) const noexcept;
-    /// Where in the piece's cell points may be looked for that belong to it: the whole cell, or its part in which the
-    /// piece is; nothing where that is not all of the same label.
+    /// Returns the part of the piece's cell in which to search for points of the region: the whole cell, or the octant
+    /// with the piece; empty if its labels differ.
     [[nodiscard]] std::optional<CellRegion> region(const PartCell& cell, const PiecePlace& place) const noexcept;
     /// Calls `visit(region)` for the regions of a cell that belong to it.
     template <class Visit> void forRegions(const PartCell& cell, const NodePlace& padded, const Visit& visit) const {
@@ -73,7 +73,7 @@ class SearchedPart {
     };
     [[nodiscard]] Octants octantsOf(const PiecePlace& place) const noexcept;
     [[nodiscard]] bool has(const NodePlace& padded, const std::array<std::uint32_t, 3>& octant) const noexcept;
-    /// Of some octants: how many belong to it, and how many there are.
+    /// Returns the number of octants in the region, and their total number.
     [[nodiscard]] std::array<unsigned, 2> count(const NodePlace& padded, const Octants& octants) const noexcept;
 
     const BrickPyramid* pyramid_;
@@ -89,7 +89,7 @@ class SearchedPart {
 /// Sets of a single label each. `indices`: numbers of labels in LabelData::values. The map is on the volume's grid.
 [[nodiscard]] std::vector<LabelSet> singleLabels(const OpaquePart& part, const VolumeImpl& volume,
                                                  const LabelData& labels, std::span<const std::uint32_t> indices);
-/// The set of all of them.
+/// Returns the set of all labels.
 [[nodiscard]] LabelSet allLabels(const OpaquePart& part, const VolumeImpl& volume, const LabelData& labels,
                                  std::span<const std::uint32_t> indices);
 

@@ -2,7 +2,7 @@
 #include "host/search/mesh_place.h"
 #include "core/base/infinity.h"
 #include "core/geometry/recentre.h"
-#include "host/search/cells/cluster_sieve.h"
+#include "host/search/cells/cluster_culling.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -18,7 +18,7 @@ namespace {
 
 using glm::dvec3;
 
-/// Of the largest term of a coordinate: a distance is made of a few dozen operations on such.
+/// Relative to the largest term of a coordinate: a distance takes a few dozen operations on such terms.
 constexpr double kRelativeError = 0x1p-46;
 /// Outside of these squares of distances may overflow, or vanish.
 constexpr double kLeast = 1e-100;
@@ -74,7 +74,7 @@ void MeshPlace::findError(const Mat4& world_from_object) {
     }
     const double magnitude = largest + space_->magnitude;
     const bool usable = magnitude > kLeast && magnitude < kGreatest;
-    // No vector is longer after the pose than by the root of its squares.
+    // The pose stretches no vector by more than the root of its squares.
     const double ofVertices = (1 + 0x1p-40) * std::sqrt(squares) * mesh_->origin.rounding;
     error_ = usable ? kRelativeError * magnitude * space_->condition + ofVertices : kInfinity;
 }
@@ -203,7 +203,7 @@ void MeshPlace::placeCluster(std::uint32_t cluster) {
     }
 }
 
-/// Where else they may be.
+/// Transforms the swept volume.
 void MeshPlace::placeSwept(std::uint32_t cluster) {
     const ClusterPlace& place = mesh_->clusters[cluster];
     clusterVertices_.resize(std::max<std::size_t>(clusterVertices_.size(), place.vertexCount));

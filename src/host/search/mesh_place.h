@@ -23,7 +23,7 @@ class MeshPlace {
                const std::optional<Sweep>& sweep = {});
 
     [[nodiscard]] const MeshImpl& mesh() const noexcept { return *mesh_; }
-    /// Whether it may be elsewhere, too.
+    /// Returns true if the mesh is swept.
     [[nodiscard]] bool isSwept() const noexcept { return sweep_.has_value(); }
     [[nodiscard]] Direction along(const glm::dvec3& normal) const noexcept {
         return {normal, sweep_ ? &*sweep_ : nullptr};
@@ -36,11 +36,11 @@ class MeshPlace {
         const glm::dvec3 point = sweep_->near(placed, from);
         return placed.own > 0 ? towards(from, point, placed.own) : point;
     }
-    /// The point that gets there, at its pose.
+    /// Returns the point that comes nearest, at its pose.
     [[nodiscard]] glm::dvec3 nearest(const PlacedTriangle& triangle, const glm::dvec3& from) const noexcept {
         return sweep_ ? sweep_->nearest(triangle, from) : triangle.near(from);
     }
-    /// Of the mesh's tree.
+    /// Returns a box of the mesh's tree.
     [[nodiscard]] const PlacedBox& box(std::uint32_t level, std::uint32_t node);
     /// The box in centred voxel coordinates around a box of object space, wherever it may be.
     void voxelBounds(const RunBox& box, glm::dvec3& lo, glm::dvec3& hi) const;
@@ -57,17 +57,17 @@ class MeshPlace {
     }
     /// Adds the corners of some triangles of a cluster, each once: a bit for each triangle.
     void addCorners(std::uint32_t cluster, std::uint64_t triangles, PointList& points) const;
-    /// How many triangles a run has.
+    /// Returns the number of triangles in a run.
     [[nodiscard]] std::uint32_t count(std::uint32_t run) const;
-    /// How many triangles a cluster has.
+    /// Returns the number of triangles in a cluster.
     [[nodiscard]] std::uint32_t countOfCluster(std::uint32_t cluster) const;
     /// The place of a run's first triangle in the mesh's arrays.
     [[nodiscard]] std::uint32_t first(std::uint32_t run) const {
         return mesh_->clusters[run / ClusterTree::kRunsOfCluster].firstTriangle +
                run % ClusterTree::kRunsOfCluster * kRunTriangles;
     }
-    /// No computed distance between the mesh and the volume is off by more, mm. Infinite where the numbers are too
-    /// large or too small to say.
+    /// Upper bound of the error of a computed distance between mesh and volume, mm. Infinite if the numbers are too
+    /// large or too small to bound it.
     [[nodiscard]] double error() const noexcept { return error_; }
     /// The object's origin, local.
     [[nodiscard]] glm::dvec3 origin() const noexcept { return origin_; }
@@ -93,7 +93,7 @@ class MeshPlace {
     glm::dvec3 origin_{};
     glm::dvec3 floats_{}; ///< the origin of the mesh's floats, local
     double error_ = 0;
-    std::uint32_t pair_ = 0; ///< what was placed for another is not in place
+    std::uint32_t pair_ = 0; ///< data of another pair are stale
     bool whole_ = false;     ///< there was memory for all that follows
     std::vector<std::vector<Slot<PlacedBox>>> boxes_;
     std::vector<std::uint32_t> clusters_; ///< the pair that they are placed for

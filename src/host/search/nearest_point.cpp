@@ -158,10 +158,10 @@ class OpaqueSearch {
         }
     }
 
-    /// mm^2: what is not nearer is not looked into.
+    /// mm^2: cells from this distance on are pruned.
     [[nodiscard]] double worthwhile() const { return best_.distance * best_.distance; }
 
-    /// The nearest cell first, then what is still nearer than what was found: most bricks have no second one.
+    /// The nearest cell first, then other cells that are still nearer: most bricks have none.
     void openBrick(const NodePlace& brick) {
         const BrickCells& known = part_.cells(volume_, brick);
         const CellSquares squares(*this, brick);
@@ -172,7 +172,7 @@ class OpaqueSearch {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             cells.hi[axis] = std::min(cells.hi[axis], squares.last[axis]);
         }
-        sieveNear({known, cells, squares.of, worthwhile()}, memory_.cells);
+        cullNear({known, cells, squares.of, worthwhile()}, memory_.cells);
         double least = worthwhile();
         NodePlace nearest{-1, -1, -1};
         forKept(cells, least, [&](double square, const NodePlace& cell) {
@@ -209,7 +209,7 @@ class OpaqueSearch {
         }
     }
 
-    /// How far a brick's cells are along each axis, squared: mm^2.
+    /// Squared distances of a brick's cells along each axis: mm^2.
     struct CellSquares {
         CellSquares(const OpaqueSearch& search, const NodePlace& brick) {
             for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -227,7 +227,7 @@ class OpaqueSearch {
         [[nodiscard]] double at(std::size_t axis, std::int32_t cell) const {
             return of[axis][static_cast<std::size_t>(cell)];
         }
-        /// To some of the brick's cells.
+        /// Returns the minimum squared distance of some of the brick's cells.
         [[nodiscard]] double least(const CellBox& cells) const {
             double sum = 0;
             for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -269,7 +269,7 @@ class OpaqueSearch {
         }
     }
 
-    /// The same of a cell, soon or when walk() is called.
+    /// Adds a cell to the walks; walk() may be deferred.
     void addCell(const NodePlace& node) {
         PieceRows& rows = memory_.rows;
         const PartCell place = part_.emptyCell(volume_, node);

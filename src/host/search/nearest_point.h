@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/infinity.h"
-#include "host/search/cells/cell_sieve.h"
+#include "host/search/cells/cell_culling.h"
 #include "host/search/cells/cell_walk.h"
 #include "host/search/label_part.h"
 #include "host/search/mesh_place.h"
@@ -24,10 +24,10 @@ struct OpaquePoint {
     double distance = kInfinity;
 };
 
-/// What looking for an opaque point takes. Contents mean nothing before and after.
+/// Scratch memory of the search for an opaque point. Contents have no meaning between calls.
 struct NearMemory {
     PieceRows& rows; ///< empty, before and after
-    SievedCells& cells;
+    RemainingCells& cells;
     WalkRows& walks;
 };
 
@@ -37,13 +37,13 @@ struct NearMemory {
 [[nodiscard]] OpaquePoint nearestOpaque(const OpaquePart& part, const SearchedPart& searched, const VolumeImpl& volume,
                                         const glm::dvec3& from, double within, const NearMemory& memory);
 
-/// The same in a brick alone.
+/// Like nearestOpaque(), in one brick.
 [[nodiscard]] OpaquePoint nearestInBrick(const OpaquePart& part, const SearchedPart& searched, const VolumeImpl& volume,
                                          const NodePlace& brick, const glm::dvec3& from, double within,
                                          const NearMemory& memory);
 
-/// Goes along a cell's interpolant from a point of a region of it until the value is certainly opaque; false where it
-/// does not get there. `at`: the cell's coordinates from -1 to 1.
+/// Walks along a cell's interpolant from a point of a region until the value is certainly opaque; false if it fails.
+/// `at`: the cell's coordinates from -1 to 1.
 [[nodiscard]] bool goToOpaque(const OpaquePart& part, const PartCell& cell, const CellRegion& region,
                               glm::dvec3& at) noexcept;
 

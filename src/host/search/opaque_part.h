@@ -26,7 +26,7 @@ class BrickPyramid {
 
     /// Level 0 are the bricks.
     [[nodiscard]] std::uint32_t levels() const noexcept { return static_cast<std::uint32_t>(levels_.size()); }
-    /// False outside of it.
+    /// Returns false outside the volume.
     [[nodiscard]] bool has(std::uint32_t level, const NodePlace& node) const noexcept {
         const Level& at = levels_[level];
         return node[0] < at.count[0] && node[1] < at.count[1] && node[2] < at.count[2] &&
@@ -48,15 +48,15 @@ class BrickPyramid {
     std::vector<Level> levels_;
 };
 
-/// Of the largest voxel: what an interpolated value is off by at most, after a dozen roundings, and as many of what is
-/// computed from its terms. In double: single precision would be all that keeps the bounds apart.
+/// Maximum error of an interpolated value after a dozen roundings, relative to the largest voxel, with the same margin
+/// for the computed terms. In double: single precision would limit the bounds.
 inline constexpr double kValueError = 0x1p-47;
-/// Of a cell whose voxels are from `lo` to `hi`: between equal ones nothing is rounded.
+/// Returns the error in a cell whose voxels are from `lo` to `hi`; interpolation between equal voxels is exact.
 [[nodiscard]] inline double valueError(double lo, double hi) noexcept {
     return lo < hi ? kValueError * std::max(std::abs(lo), std::abs(hi)) : 0;
 }
 
-/// What a cell holds for the search.
+/// Data of a cell for the search.
 struct PartCell {
     Trilinear terms{};
     double error = 0;    ///< of a value
@@ -79,9 +79,9 @@ class OpaquePart {
     }
     /// The cell with this padded number (core/volume/bricks.h), which is not further out than the last one.
     [[nodiscard]] PartCell cell(const VolumeImpl& volume, const NodePlace& padded) const;
-    /// Of its corners' stored values.
+    /// Returns the range of the corners' stored values.
     [[nodiscard]] ValueRange cornerRange(const VolumeImpl& volume, const NodePlace& padded) const;
-    /// The same without what it holds: where it is.
+    /// Returns a cell with its position only.
     [[nodiscard]] PartCell emptyCell(const VolumeImpl& volume, const NodePlace& padded) const {
         PartCell out;
         setDomain(volume, padded, out);

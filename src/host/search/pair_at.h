@@ -10,7 +10,7 @@
 
 namespace voxtact::cpu {
 
-/// What a thread keeps from pair to pair.
+/// State that a thread keeps between pairs.
 struct ThreadMemory {
     MeshPlace mesh;
     ClosestSearch search;
@@ -33,7 +33,7 @@ struct PairAt {
     [[nodiscard]] const VolumeImpl& volume() const { return item.volume->impl(); }
     [[nodiscard]] const MeshImpl& mesh() const { return shape != nullptr ? *shape : item.mesh->impl(); }
 
-    /// Whether it touches, as the projection `certified` says. `point` is set where it certainly does.
+    /// Decides whether the pair touches, as the projection `certified` does. Sets `point` if it certainly does.
     [[nodiscard]] CertifiedTally touch(std::optional<TouchPoint>& point) const;
     /// The closest points. `sweep`: where else the mesh may be; in the world's coordinates. `from`: as for
     /// ClosestSearch.

@@ -30,16 +30,16 @@ struct SearchPair {
     [[nodiscard]] PiecePlace place() const noexcept { return {node, depth, piece}; }
     [[nodiscard]] bool isLeaf() const noexcept { return meshLevel == kTriangles && shift == 0; }
     [[nodiscard]] int size() const noexcept { return meshLevel + shift - depth; }
-    /// Of pairs that are equally near, the smaller ones first: to find some point soon.
+    /// Of equally near pairs, prefers smaller ones, to find a point early.
     [[nodiscard]] bool isAfter(const SearchPair& other) const noexcept {
         return lo != other.lo ? lo > other.lo : size() > other.size();
     }
 };
 
-/// What a search left open: another one may begin there, for a mesh that is nowhere where it was not in the first one.
+/// Pairs that a search left open; another search may begin with them, if its mesh is inside that of the first.
 using OpenPairs = std::vector<SearchPair>;
 
-/// Pairs, the nearest first. The pairs stay where they are: what is sorted is small.
+/// Pairs by distance, nearest first. Sorts small entries; the pairs themselves do not move.
 class PairHeap {
   public:
     void clear() noexcept {
@@ -48,7 +48,7 @@ class PairHeap {
         unused_.clear();
     }
     [[nodiscard]] bool empty() const noexcept { return order_.empty(); }
-    /// Of the first one, mm. Expects some.
+    /// Returns the distance of the first pair, mm. Expects at least one pair.
     [[nodiscard]] double least() const noexcept { return order_.front().lo; }
 
     void push(const SearchPair& pair) {

@@ -21,7 +21,7 @@ struct PlacedBox {
     double wide = 0;     ///< mm, of a sweep (Sweep::wide), and `own`
     double own = 0;      ///< mm, of its vertices by themselves (Sweep::each)
 
-    /// A point of it that is about the closest one; it is where the sides are at right angles.
+    /// Returns approximately the closest point; exact if the sides are at right angles.
     [[nodiscard]] glm::dvec3 near(const glm::dvec3& from) const noexcept;
 };
 
@@ -33,7 +33,7 @@ struct PlacedTriangle {
     double wide = 0; ///< mm, as PlacedBox has them
     double own = 0;
 
-    /// The point of it that is closest, up to rounding.
+    /// Returns the closest point, up to rounding.
     [[nodiscard]] glm::dvec3 near(const glm::dvec3& from) const noexcept { return closestPoint(corners, from); }
 };
 
@@ -47,8 +47,8 @@ struct alignas(kRowAlignment) PlacedCluster {
     std::array<std::array<Row, 3>, 3> corners{}; ///< of each corner x, y and z
     std::array<Row, 3> lo{};
     std::array<Row, 3> hi{};
-    /// For directions, which need not be exact: one by the square of each side, from a to b, a to c and b to c, and of
-    /// the sides' cross product; that is 0 where a triangle has no area.
+    /// For directions, which need not be exact: the inverse of the square of each side, from a to b, a to c and b to c,
+    /// and of the sides' cross product; 0 for a degenerate triangle.
     std::array<Row, 4> inverses{};
     Row wide{}; ///< of a swept mesh alone
     Row own{};

@@ -167,8 +167,8 @@ ClosestSearch::Pair ClosestSearch::next() {
     return heap_.pop();
 }
 
-/// Until some point is found, what is nearest of a pair is opened at once, be something else nearer: what is offered
-/// thereafter is closed sooner.
+/// Until a point is found, opens the nearest part of a pair immediately, even if another pair is nearer: later offers
+/// are then pruned earlier.
 void ClosestSearch::push(const Pair& pair) {
     Pair kept = pair;
     if (found_.hi == kInfinity && !found_.exhausted) {
@@ -183,14 +183,14 @@ void ClosestSearch::push(const Pair& pair) {
     heap_.push(kept);
 }
 
-/// What is left of it is not divided any more.
+/// Drops the rest of a pair without division.
 void ClosestSearch::drop(const Pair& pair) {
     found_.lo = std::min(found_.lo, pair.lo);
     dropped_.push_back(pair);
 }
 
-/// From the first certain point to the closest on the mesh, and from there to the opaque part: to a point that is about
-/// the closest thereabouts, so that most of what is offered later is closed at once.
+/// From the first certain point to the closest point of the mesh, and from there to about the closest opaque point, so
+/// that most later offers are pruned at once.
 void ClosestSearch::improve() {
     const MeshPoint onMesh = nearestOnMesh(*mesh_, found_.inVolume, found_.hi);
     if (found_.isOpaque && onMesh.distance < found_.hi) {

@@ -3,9 +3,9 @@
 
 #include "core/base/infinity.h"
 #include "host/cancel.h"
+#include "host/search/cells/cell_culling.h"
 #include "host/search/cells/cell_piece.h"
-#include "host/search/cells/cell_sieve.h"
-#include "host/search/cells/piece_look.h"
+#include "host/search/cells/piece_distance.h"
 #include "host/search/cells/piece_rows.h"
 #include "host/search/cells/volume_boxes.h"
 #include "host/search/found.h"
@@ -25,14 +25,14 @@ namespace voxtact::cpu {
 struct SearchGoal {
     double tolerance = 0;       ///< mm: the bounds are near enough
     double relative = 0;        ///< of the upper bound: the same
-    double maximum = kInfinity; ///< mm: what is not nearer is not looked for
+    double maximum = kInfinity; ///< mm: search radius
     double enough = -1;         ///< mm: an opaque point as near as this ends it
-    double finest = 0;          ///< mm: what is known as well is not examined again
+    double finest = 0;          ///< mm: stop when upper - lower is at most this
     std::uint64_t mostSteps = 0;
     std::optional<glm::dvec3> known{}; ///< local: a point that certainly is searched for. Not with a sweep
     bool measures = false; ///< a sweep that only shifts: how near it comes is asked, not only whether it is apart
-    bool coarsely = false; ///< what is smaller than the finest is not divided, certain or not
-    bool untilMet = false; ///< a point as near as enough is looked for, though it is known that lo will be 0
+    bool coarsely = false; ///< boxes below the finest size are not divided, even if undecided
+    bool untilMet = false; ///< also searches for a point within `enough` if the lower bound is known to be 0
 };
 
 /// Looks for the opaque point that is closest to a mesh, best first (Hart, Nilsson and Raphael, 1968): over pairs of a
@@ -44,7 +44,7 @@ class ClosestSearch {
     [[nodiscard]] Found run(MeshPlace& mesh, const VolumeImpl& volume, const OpaquePart& part,
                             const SearchedPart& searched, const SearchGoal& goal, const OpenPairs* from = nullptr,
                             CancelFlag cancel = nullptr);
-    /// Of the last run, whose mesh was swept: without these it is apart from all that is opaque.
+    /// Returns the open pairs of the last run with a swept mesh: without them it is apart from the opaque region.
     [[nodiscard]] OpenPairs left() const;
 
   private:
@@ -53,7 +53,7 @@ class ClosestSearch {
     /// Level 1 of a tree has a box for each cluster; a mesh of one cluster has no such level.
     static constexpr std::int8_t kClusters = 1;
     static constexpr std::uint8_t kMostDepth = 16;
-    /// Boxes of so many cells are not halved: their cells are gone through. A sweep's are one by one.
+    /// Boxes of this many cells are not halved; their cells are visited. With a sweep, one by one.
     [[nodiscard]] std::uint8_t leastShift() const noexcept { return mesh_->isSwept() ? 2 : 3; }
 
     void begin(const OpenPairs* from);
@@ -76,29 +76,29 @@ class ClosestSearch {
     void lookInto(const Pair& pair, const OpaqueBox& region);
     /// After gather().
     void offerPiece(Pair pair, const PartCell& cell);
-    /// The same of all pieces that are in place in `rows_`, whose pairs are `offered_`: none is left there.
+    /// Offers all pieces in `rows_`, whose pairs are `offered_`, and empties the rows.
     void offerRows();
-    /// The same of whole cells, soon or when they are offered.
+    /// Offers whole cells; may be deferred.
     void addCell(const Pair& pair);
     void offerCells();
     void push(const Pair& pair);
 
-    /// For looks that are over before rows and cells are used again.
+    /// For searches that end before rows and cells are reused.
     [[nodiscard]] NearMemory nearMemory() noexcept { return {rows_, cells_, walks_}; }
     [[nodiscard]] Direction from(const Pair& pair, const glm::dvec3& point);
     /// Sets what `corners_` is about.
     void gather(const Pair& pair);
     [[nodiscard]] double cut() const noexcept {
-        // Of a swept mesh a point says nothing but that it is not apart.
+        // A point of a swept mesh shows only that it is not apart.
         if (decides()) {
             return goal_.maximum;
         }
         const double slack = std::max(goal_.tolerance, goal_.relative * found_.hi);
         return std::min(found_.hi - (found_.hi < kInfinity ? slack : 0), goal_.maximum);
     }
-    /// Whether all that is asked is if a sweep is apart.
+    /// Returns true if the only question is whether a sweep is apart.
     [[nodiscard]] bool decides() const noexcept { return mesh_->isSwept() && !goal_.measures; }
-    /// What is closed is not examined again: the answer's lower bound is no higher.
+    /// Returns true if a lower bound prunes a pair: the answer's lower bound is at most that.
     [[nodiscard]] bool closes(double lo) {
         if (lo < cut()) {
             return false;
@@ -111,10 +111,10 @@ class ClosestSearch {
     template <class Visit> void forTriangles(const Pair& pair, const Visit& visit);
     /// Keeps those of a pair's triangles whose `bound(triangle)` does not close; false where none is left.
     template <class Bound> bool keep(Pair& pair, const Bound& bound);
-    /// The same along a direction, whose least dot product with an opaque point is known.
+    /// Prunes by the distance along a direction whose minimum dot product with opaque points is known.
     bool keepAlong(Pair& pair, const Direction& along, double least);
-    /// The same by what is left of a pair's triangles: `sieve(job)`.
-    template <class Sieve> bool keepBy(Pair& pair, const Sieve& sieve);
+    /// Prunes by `cull(job)`, which returns the remaining triangles of a pair.
+    template <class Culling> bool keepBy(Pair& pair, const Culling& cull);
     bool keepByPiece(Pair& pair, const CellPiece& piece, const PieceBounds& bounds);
 
     MeshPlace* mesh_ = nullptr;
@@ -129,13 +129,13 @@ class ClosestSearch {
     std::uint64_t stepsInDoubt_ = 0;     ///< since the lower bound was known
     std::array<double, 32> diameters_{}; ///< mm, of boxes by their shift
     PointList corners_;                  ///< of the triangles at hand
-    SievedCells cells_;
+    RemainingCells cells_;
     PieceRows rows_;
     WalkRows walks_;
     std::vector<Pair> offered_;
     PairHeap heap_;
     std::vector<Pair> dropped_; ///< too small to be divided
-    std::optional<Pair> dive_;  ///< as long as there is no point: the nearest of what was offered last
+    std::optional<Pair> dive_;  ///< without a point: the nearest of the last offers
 };
 
 } // namespace voxtact::cpu

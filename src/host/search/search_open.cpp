@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a pair is divided into, and which of that is still looked for.
 #include "core/base/infinity.h"
-#include "host/search/cells/cluster_sieve.h"
+#include "host/search/cells/cluster_culling.h"
 #include "host/search/search.h"
 
 #include <glm/common.hpp>
@@ -53,8 +53,9 @@ template <class Bound> bool ClosestSearch::keep(Pair& pair, const Bound& bound) 
     return kept != 0;
 }
 
-template <class Sieve> bool ClosestSearch::keepBy(Pair& pair, const Sieve& sieve) {
-    const Sieved left = sieve(SieveJob{mesh_->cluster(pair.mesh), pair.triangles, pair.lo, cut(), error_.absolute});
+template <class Culling> bool ClosestSearch::keepBy(Pair& pair, const Culling& cull) {
+    const RemainingTriangles left =
+        cull(CullingJob{mesh_->cluster(pair.mesh), pair.triangles, pair.lo, cut(), error_.absolute});
     found_.lo = std::min(found_.lo, left.leastGone);
     pair.triangles = left.kept;
     pair.nearest = left.nearest;
@@ -65,7 +66,7 @@ template <class Sieve> bool ClosestSearch::keepBy(Pair& pair, const Sieve& sieve
 bool ClosestSearch::keepAlong(Pair& pair, const Direction& along, double least) {
     if (!mesh_->isSwept()) {
         const std::array<LeastAlong, 1> directions{LeastAlong(along, least)};
-        return keepBy(pair, [&](const SieveJob& job) { return sieveAlong(job, directions); });
+        return keepBy(pair, [&](const CullingJob& job) { return cullAlong(job, directions); });
     }
     return keep(pair, [&](const PlacedTriangle& triangle) {
         const double reach = along.reach(triangle);
@@ -135,7 +136,7 @@ void ClosestSearch::openCluster(const Pair& pair) {
     if (!boxes_.opaque(child.cube(), region)) {
         return;
     }
-    // All of them by the normal of their box, then each by its own.
+    // All by the normal of their box, then each by its own.
     const dvec3 middle = part_->space.toWorld(region.middle());
     const PlacedBox* box = boxOf(child);
     const Direction along = box != nullptr ? mesh_->along(middle - mesh_->near(*box, middle)) : from(child, middle);
@@ -174,8 +175,7 @@ void ClosestSearch::openCells(const Pair& pair) {
     const dvec3 along = direction.normal() * part_->space.local_from_voxel;
     const dvec3 lowest = glm::min(along, dvec3(0));
     const double base = dot(along, region.corner) + lowest.x + lowest.y + lowest.z - direction.reach(corners_);
-    sieveCells({*region.known, region.cells, along, base, direction.inverse(), cell.lo, cut(), error_.absolute},
-               cells_);
+    cullCells({*region.known, region.cells, along, base, direction.inverse(), cell.lo, cut(), error_.absolute}, cells_);
     found_.lo = std::min(found_.lo, cells_.leastGone);
     const NodePlace first{(pair.node[0] << pair.shift) & ~(kBrickSide - 1),
                           (pair.node[1] << pair.shift) & ~(kBrickSide - 1),
@@ -239,7 +239,9 @@ void ClosestSearch::offer(Pair pair) {
 bool ClosestSearch::sift(Pair& pair, const OpaqueBox& region) {
     pair.sifted = true;
     if (!mesh_->isSwept()) {
-        return keepBy(pair, [&](const SieveJob& job) { return sieveByBox(job, part_->space, {region.lo, region.hi}); });
+        return keepBy(pair, [&](const CullingJob& job) {
+            return cullByBox(job, part_->space, {region.lo, region.hi});
+        });
     }
     const dvec3 middle = part_->space.toWorld(region.middle());
     return keep(pair, [&](const PlacedTriangle& triangle) {
@@ -258,7 +260,7 @@ void ClosestSearch::gather(const Pair& pair) {
     mesh_->addCorners(pair.mesh, pair.triangles, corners_);
 }
 
-/// From the triangle that was nearest before to a point.
+/// Returns the direction from the previously nearest triangle to a point.
 Direction ClosestSearch::from(const Pair& pair, const dvec3& point) {
     return mesh_->along(point - mesh_->near(mesh_->triangle(pair.mesh, pair.nearest), point));
 }
@@ -324,7 +326,7 @@ bool ClosestSearch::keepByPiece(Pair& pair, const CellPiece& piece, const PieceB
     const PieceAlong shared(bounds, part_->space, from(pair, bounds.middle));
     if (!mesh_->isSwept()) {
         const LeastAlong along(shared.direction, shared.least);
-        return keepBy(pair, [&](const SieveJob& job) { return sieveByPiece(job, part_->space, bounds, along); });
+        return keepBy(pair, [&](const CullingJob& job) { return cullByPiece(job, part_->space, bounds, along); });
     }
     const dvec3 ascent = piece.ascent(part_->space);
     const dvec3 other = dot(ascent, shared.direction.normal()) < 0 ? -ascent : ascent;
@@ -358,9 +360,9 @@ void ClosestSearch::openLeaf(const Pair& pair) {
     if (!keepByPiece(child, piece, bounds)) {
         return;
     }
-    // A look takes as long as all of that.
+    // The full test costs as much as all of these.
     const PlacedTriangle nearest = mesh_->triangle(pair.mesh, child.nearest);
-    const dvec3 normal = PieceLook(*part_, *searched_, cell, piece, *mesh_, nearest, goal_.tolerance / 8)
+    const dvec3 normal = PieceDistance(*part_, *searched_, cell, piece, *mesh_, nearest, goal_.tolerance / 8)
                              .run(pair.place(), error_, pair.mesh * kClusterTriangles + child.nearest, found_);
     const PieceAlong seen(bounds, part_->space, mesh_->along(normal));
     if (!keepAlong(child, seen.direction, seen.least)) {

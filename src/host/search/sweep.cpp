@@ -38,7 +38,7 @@ Sweep Sweep::from(const dvec3& origin) const noexcept {
     return out;
 }
 
-/// Turned towards the normal as far as it may, in their plane.
+/// Rotated towards the normal as far as allowed, in their plane.
 double Sweep::turnedReach(const dvec3& normal, const dvec3& x) const noexcept {
     const dvec3 arm = x - centre;
     const double along = dot(normal, arm);
@@ -58,7 +58,7 @@ double Sweep::wide(const dvec3& x) const noexcept {
 
 double Sweep::reach(const dvec3& normal, const PlacedBox& box) const noexcept {
     if (turn > 0) {
-        // Each rotation is linear: a corner reaches farthest.
+        // Each rotation is linear, so the maximum is at a corner.
         double most = -kInfinity;
         for (unsigned i = 0; i < 8; ++i) {
             const dvec3 corner = box.middle + ((i & 1U) != 0 ? 1.0 : -1.0) * box.sides[0] +
@@ -139,7 +139,7 @@ dvec3 Sweep::near(const PlacedBox& box, const dvec3& from) const noexcept {
     return withSlack(onTheWay(from, [&](double part) { return box.near(from - part * way) + part * way; }), from);
 }
 
-/// Turned to where a point of it gets the closest, another point of it may be closer: it is turned by that, and so on.
+/// After rotating a point to its closest position, another point may be closer; repeats with that one.
 dvec3 Sweep::nearTurned(const PlacedTriangle& triangle, const dvec3& from) const noexcept {
     constexpr int kTurns = 2;
     dvec3 point = nearest(triangle, from);
@@ -158,7 +158,8 @@ dvec3 Sweep::nearTurned(const PlacedTriangle& triangle, const dvec3& from) const
     return near(point, from);
 }
 
-/// Where the line that a point is shifted along meets a triangle, as a part of the way; nothing where it does not.
+/// Returns the intersection of a point's translation with a triangle, as a fraction of the translation; empty if there
+/// is none.
 std::optional<double> Sweep::shiftTo(const PlacedTriangle& triangle, const dvec3& from) const noexcept {
     const dvec3 ab = triangle.corners[1] - triangle.corners[0];
     const dvec3 ac = triangle.corners[2] - triangle.corners[0];

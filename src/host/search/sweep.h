@@ -12,38 +12,37 @@
 
 namespace voxtact::cpu {
 
-/// Where a mesh may be besides at its pose. A point that is at x may be
-/// - turned about `centre` by no more than `turn`, or else within wide(x) of somewhere on the way from x - w to x + w
-///   with w = linear * x + offset: what bends is of second order, and is in `wide`;
-/// - and `slack` from there.
+/// Positions of a mesh around its pose. A point at x may be - rotated about `centre` by at most `turn`, or within
+/// wide(x) of a point between x - w and x + w, with w = linear * x + offset: deviations from the tangent are of second
+/// order, and in `wide`; - and then within `slack`.
 struct Sweep {
     double turn = 0; ///< radians, to pi; then nothing moves
     glm::dvec3 centre{};
     glm::dmat3 linear{0};
     glm::dvec3 offset{};
-    glm::dvec3 straight{}; ///< of the offset: what is not of turning
-    double bend = 0;       ///< of what turns on the way: what it is off its tangent, for each mm of its w
+    glm::dvec3 straight{}; ///< translation part of the offset
+    double bend = 0;       ///< maximum deviation of a rotating point from its tangent, per mm of its w
     double slack = 0;      ///< mm, of all points
-    /// What vertices are off besides, each for itself, and points between them by no more than these; null: nothing.
-    /// Where a mesh has placed something, that is in its `wide`.
+    /// Additional displacement of each vertex; points between vertices have at most that of their vertices; null: none.
+    /// Once a mesh has transformed an object, `wide` includes it.
     const VertexReach* each = nullptr;
     double eachScale = 0; ///< mm for one of its units
 
-    /// The same, where x is measured from elsewhere.
+    /// Returns the sweep relative to another origin of x.
     [[nodiscard]] Sweep from(const glm::dvec3& origin) const noexcept;
 
-    /// How far along a normal a point may be, but for length(normal) * wide(x).
+    /// Returns the maximum of a point along a normal, without length(normal) * wide(x).
     [[nodiscard]] double reach(const glm::dvec3& normal, const glm::dvec3& x) const noexcept;
     [[nodiscard]] double wide(const glm::dvec3& x) const noexcept;
-    /// The same of all points of a box.
+    /// Like reach(), over all points of a box.
     [[nodiscard]] double reach(const glm::dvec3& normal, const PlacedBox& box) const noexcept;
     [[nodiscard]] double wide(const PlacedBox& box) const noexcept;
     /// About the closest to `from` of the places where `x` may be.
     [[nodiscard]] glm::dvec3 near(const glm::dvec3& x, const glm::dvec3& from) const noexcept;
-    /// The same of all points of something.
+    /// Like near(), over all points of an object.
     [[nodiscard]] glm::dvec3 near(const PlacedBox& box, const glm::dvec3& from) const noexcept;
     [[nodiscard]] glm::dvec3 near(const PlacedTriangle& triangle, const glm::dvec3& from) const noexcept;
-    /// The point of a triangle that gets there, where it is at its pose.
+    /// Returns the point of a triangle that comes nearest, at its pose.
     [[nodiscard]] glm::dvec3 nearest(const PlacedTriangle& triangle, const glm::dvec3& from) const noexcept;
 
   private:
@@ -52,8 +51,8 @@ struct Sweep {
     [[nodiscard]] glm::dvec3 nearShifted(const PlacedTriangle& triangle, const glm::dvec3& from) const noexcept;
     [[nodiscard]] std::optional<double> shiftTo(const PlacedTriangle& triangle, const glm::dvec3& from) const noexcept;
     [[nodiscard]] glm::dvec3 withSlack(const glm::dvec3& at, const glm::dvec3& from) const noexcept;
-    /// How far on its way something gets the closest to `from`, from -1 to 1: `closest(part)` is its closest point
-    /// there.
+    /// Returns the parameter from -1 to 1 at which an object comes nearest to `from`: `closest(part)` is its closest
+    /// point there.
     template <class Closest>
     [[nodiscard]] glm::dvec3 onTheWay(const glm::dvec3& from, const Closest& closest) const noexcept;
 };

@@ -29,7 +29,7 @@ Result<void> checkTouch(const Touch& question) {
     return checkFact(factOf("count", "resolution"), question.resolution);
 }
 
-/// What touches is within every margin, and that is soon known.
+/// A touch is within every margin, and cheap to test.
 void decide(const PairAt& at, const Touch& question, ThreadMemory& memory, PairTouch& out) {
     std::optional<TouchPoint> point;
     const CertifiedTally touch = at.touch(point);

@@ -14,10 +14,10 @@
 
 namespace voxtact::cpu {
 
-/// Of a batch's items.
+/// Opaque regions of a batch's items.
 using Parts = std::vector<std::shared_ptr<const OpaquePart>>;
 
-/// Threads, and what is kept from call to call. One call at a time.
+/// Threads, and state kept between calls. One call at a time.
 class Workers {
   public:
     /// 0: one for each processor.
@@ -32,7 +32,7 @@ class Workers {
                                                          double threshold, double resolution = kDefaultResolution) {
         return parts_.get(volume, function, threshold, resolution);
     }
-    /// All of a volume, whatever its values.
+    /// Returns the whole volume as a region, whatever its values.
     [[nodiscard]] std::shared_ptr<const OpaquePart> whole(const VolumeImpl& volume) {
         return parts_.get(volume, allOpaque_, kDefaultThreshold, kDefaultResolution);
     }
@@ -44,7 +44,7 @@ class Workers {
         return parts;
     }
 
-    /// The same under transfer functions that make all of each volume opaque.
+    /// Returns whole volumes as regions, under transfer functions that make every value opaque.
     [[nodiscard]] Parts wholesOf(const Batch& batch) {
         Parts parts;
         for (const BatchItem& item : batch.items) {
@@ -53,8 +53,8 @@ class Workers {
         return parts;
     }
 
-    /// Calls `fill(answer, memory)` for each of some answers, one at a time on each thread. What it throws comes out,
-    /// when all are at rest. Refuses what is cancelled meanwhile.
+    /// Calls `fill(answer, memory)` for each answer, one at a time per thread. Rethrows its exceptions when all threads
+    /// have stopped. Refuses cancelled calls.
     template <class Answer, class Fill>
     [[nodiscard]] Result<void> forEach(std::vector<Answer>& answers, const Cancellation& cancel, const Fill& fill) {
         if (answers.empty()) {

@@ -27,15 +27,15 @@ struct CertifiedTally {
     bool undecided = false;    ///< at least one fragment could not be decided
 };
 
-/// Called for each certain fragment with the number of its triangle and what is said of its witness.
+/// Receives the triangle index and the witness of each certain fragment.
 using CertifiedSink = std::function<void(std::uint32_t triangle, const shader::CertifiedProof& proof)>;
 
-/// Visits the fragments of a job. `sink` may be empty. What is skipped (clusters, triangles, bricks) is skipped only
-/// where it provably has no opaque point. Thread-safe.
+/// Visits the fragments of a job. `sink` may be empty. Culls clusters, triangles and bricks that provably have no
+/// opaque point. Thread-safe.
 [[nodiscard]] CertifiedTally decide(const CertifiedJob& job, const CertifiedSink& sink = {});
 
-/// The same without a sink, of a job that does not stop at the first: faster where much is opaque all over. Expects a
-/// volume with something opaque.
+/// Like decide() without a sink, for a job without early exit: faster if much is entirely opaque. Expects a volume with
+/// opaque values.
 [[nodiscard]] CertifiedTally countCertain(const CertifiedJob& job);
 
 } // namespace voxtact::cpu

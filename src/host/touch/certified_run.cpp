@@ -13,7 +13,7 @@ namespace voxtact::cpu {
 
 namespace {
 
-/// What the tasks of a pair find together.
+/// Common results of a pair's tasks.
 struct PairTally {
     std::atomic<std::uint64_t> certain{0};
     std::atomic<bool> undecided{false};

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "core/geometry/clusters.h"
-#include "host/touch/cells/box_look.h"
+#include "host/touch/cells/box_cells.h"
+#include "host/touch/cells/candidate_runs.h"
 #include "host/touch/cells/cell_counter.h"
-#include "host/touch/cells/likely_runs.h"
 #include "host/touch/cells/run_counter.h"
 #include "host/touch/part_counter.h"
 #include "host/touch/precise_fragments.h"
@@ -74,8 +74,8 @@ template <class Kept, class Mode> class Decider {
             job_.clusterBegin, job_.clusterEnd, [this](const RunBox& box) { return mayTouch(box); }, visit);
     }
 
-    /// A vertex in opaque matter is found sooner than a fragment is decided: so first one vertex of every run is
-    /// probed, then all of those runs that one look leaves, and only then these are decided.
+    /// Testing a vertex is cheaper than deciding a fragment: probes one vertex of every run, then all vertices of the
+    /// runs that pass the bounds test, and then decides these runs.
     void probeAndDecide() {
         std::vector<std::uint32_t> runs;
         descend([&](std::uint32_t run) {
@@ -86,17 +86,17 @@ template <class Kept, class Mode> class Decider {
             }
             return !done();
         });
-        LikelyRuns<Kept> likely(job_, cells_, placed_);
+        CandidateRuns<Kept> candidates(job_, cells_, placed_);
         const auto goesOn = [this] { return !done(); };
         for (std::size_t i = 0; i < runs.size() && goesOn(); ++i) {
-            likely.look(runs[i], goesOn, [this](std::uint32_t triangle, const VoxelPoint& vertex, float delta) {
+            candidates.test(runs[i], goesOn, [this](std::uint32_t triangle, const VoxelPoint& vertex, float delta) {
                 probe(triangle, vertex, delta);
             });
         }
-        for (std::size_t i = 0; i < likely.all().size() && goesOn(); ++i) {
-            const auto& run = likely.all()[i];
+        for (std::size_t i = 0; i < candidates.all().size() && goesOn(); ++i) {
+            const auto& run = candidates.all()[i];
             forTriangles(run.number, [&](const auto&... corners) {
-                run.isLooked ? decideLooked(likely, run, corners...) : decideTriangle(corners...);
+                run.isTested ? decideTested(candidates, run, corners...) : decideTriangle(corners...);
             });
         }
     }
@@ -112,8 +112,8 @@ template <class Kept, class Mode> class Decider {
         }
     }
 
-    /// Whether the triangles in a box of object space may pass through a cell that may have an opaque point. Sets
-    /// `delta_`.
+    /// Returns true if the triangles in a box of object space may pass through a cell that may have an opaque point.
+    /// Sets `delta_`.
     [[nodiscard]] bool mayTouch(const RunBox& box) {
         if (boxes_.usable()) {
             const CellBox cells = boxes_.cells(box);
@@ -197,9 +197,8 @@ template <class Kept, class Mode> class Decider {
         decide(placed_.at(mesh.corner0[at]), placed_.at(mesh.corner1[at]), placed_.at(mesh.corner2[at]));
     }
 
-    /// A triangle of a run that was examined: in those cells alone that the look left, and where a look at itself
-    /// leaves them.
-    void decideLooked(const LikelyRuns<Kept>& likely, const typename LikelyRuns<Kept>::Run& run,
+    /// Decides a triangle of a tested run: only in the remaining cells of the run, and of the triangle.
+    void decideTested(const CandidateRuns<Kept>& candidates, const typename CandidateRuns<Kept>::Run& run,
                       const CertifiedVertex& a, const CertifiedVertex& b, const CertifiedVertex& c) {
         const shader::CertifiedBounds bounds = shader::certifiedBounds(item_, a, b, c);
         const CellBox cells = cellsOf(bounds);
@@ -208,7 +207,7 @@ template <class Kept, class Mode> class Decider {
         }
         const TriangleHull hull(a.point, b.point, c.point, bounds.delta);
         const auto goesOn = [this] { return !done(); };
-        likely.forCells(run, cells, goesOn, [&](std::int32_t x, std::int32_t y, std::int32_t z, const auto& known) {
+        candidates.forCells(run, cells, goesOn, [&](std::int32_t x, std::int32_t y, std::int32_t z, const auto& known) {
             if (!hullMayMeetLinearly(opaque_, hull.hull(), known, x, y, z)) {
                 return;
             }
@@ -259,7 +258,7 @@ template <class Kept, class Mode> class Decider {
         }
     }
 
-    /// Those that may have an opaque point, until it is done.
+    /// Visits bricks that may have an opaque point, until it is done.
     template <class Visit> void visitBricks(const BrickBox& bricks, const Visit& visit) const {
         cells_.forBricks(
             bricks, [this] { return !done(); }, visit);
@@ -284,7 +283,7 @@ template <class Kept, class Mode> class Decider {
         }
     };
 
-    /// A triangle whose first place is too uncertain for any cell of it, placed precisely.
+    /// A triangle whose float position is too imprecise for any of its cells, transformed precisely.
     struct Precise {
         Decider& decider;
         shader::PrecisePlane plane;
@@ -402,12 +401,12 @@ template <class Kept, class Mode> class Decider {
         }
     }
 
-    /// `isLikely`: a look at the triangle in this cell is not worth it, or was taken already.
+    /// `isCandidate`: testing the triangle's bounds in this cell is not worthwhile, or was done already.
     void decideCell(const CertifiedTriangle& triangle, std::int32_t x, std::int32_t y, std::int32_t z,
-                    const BrickCells& known, bool isLikely) {
+                    const BrickCells& known, bool isCandidate) {
         const shader::CertifiedCorners corners = cells_.corners(x, y, z, known);
         const shader::CertifiedCell cell = shader::certifiedCell(item_, corners, x, y, z, triangle.delta);
-        if (!isLikely && !hullMayMeetLinearly(opaque_, TriangleHull(triangle).hull(), cell, x, y, z)) {
+        if (!isCandidate && !hullMayMeetLinearly(opaque_, TriangleHull(triangle).hull(), cell, x, y, z)) {
             return;
         }
         VoxelPoint polygon[CERTIFIED_MAX_CORNERS];
@@ -421,7 +420,7 @@ template <class Kept, class Mode> class Decider {
         }
     }
 
-    /// What is not asked for but in counting.
+    /// State that only counting needs.
     struct Counting {
         Counting(const CertifiedJob& job, const VolumeCells<Kept>& cells, const PlacedVertices& placed,
                  const shader::OpacityBounds& bounds, float delta)
@@ -443,7 +442,7 @@ template <class Kept, class Mode> class Decider {
     PreciseFragments<Kept> precise_; ///< of a triangle that had some which were undecided
     std::vector<Open> open_;
     PlacedVertices placed_;
-    BoxLook boxes_;
+    BoxCells boxes_;
     std::optional<Counting> counting_; ///< once a run is counted
     shader::CertifiedBounds delta_{};  ///< not less than of any triangle: of the mesh, or of the box asked last
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host/touch/fragment_look.h"
+#include "host/touch/fragment_filter.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "host/touch/fragment_cut.cpp"
@@ -32,7 +32,7 @@ struct Outline {
     FragmentMask irregular;
 };
 
-/// Cuts off what is beyond a side of the cell, as certifiedClipPlane() does. The edge along the side comes last.
+/// Cuts off the part beyond a side of the cell, like certifiedClipPlane(). The edge along the side comes last.
 HWY_INLINE void cut(std::size_t axis, bool above, FragmentV limit, Outline& outline) {
     const FragmentFloats d;
     const FragmentV zero = hn::Zero(d);
@@ -79,10 +79,10 @@ HWY_INLINE void cut(std::size_t axis, bool above, FragmentV limit, Outline& outl
 
 /// Fragments that are anywhere among the lanes.
 struct Scattered {
-    const FragmentLook::Lanes& lanes;
+    const FragmentFilter::Lanes& lanes;
     hn::Vec<FragmentWhole> number;
 
-    [[nodiscard]] HWY_INLINE FragmentV of(const FragmentLook::Lanes::Each<float>& each) const {
+    [[nodiscard]] HWY_INLINE FragmentV of(const FragmentFilter::Lanes::Each<float>& each) const {
         return hn::GatherIndex(FragmentFloats(), each.data(), number);
     }
     [[nodiscard]] HWY_INLINE AlongCell cell(std::size_t axis, std::int32_t size) const {
@@ -92,7 +92,7 @@ struct Scattered {
 
 using Cells = std::array<AlongCell, 3>;
 
-/// As certifiedClip(), but for the order of the corners.
+/// Same as certifiedClip(), except for the order of the corners.
 HWY_INLINE Outline clipped(const Scattered& fragments, const Cells& cells, FragmentV delta) {
     const FragmentFloats d;
     Outline outline;
@@ -124,7 +124,7 @@ HWY_INLINE void clampCorners(const Cells& cells, Outline& outline) {
     }
 }
 
-/// Around the corners; of what has none, any.
+/// Boxes around the corners; arbitrary without corners.
 HWY_INLINE FragmentBoxes boxesOf(const Cells& cells, const Outline& outline) {
     FragmentBoxes boxes;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -141,7 +141,7 @@ HWY_INLINE FragmentBoxes boxesOf(const Cells& cells, const Outline& outline) {
     return boxes;
 }
 
-/// As certifiedInterpolate().
+/// Same as certifiedInterpolate().
 HWY_INLINE FragmentV interpolated(const FragmentEntries& entries, const Point& at) {
     const FragmentV v00 = lerp(entries[0], entries[1], at[0]);
     const FragmentV v10 = lerp(entries[2], entries[3], at[0]);
@@ -150,7 +150,7 @@ HWY_INLINE FragmentV interpolated(const FragmentEntries& entries, const Point& a
     return lerp(lerp(v00, v10, at[1]), lerp(v01, v11, at[1]), at[2]);
 }
 
-/// As certifiedPointProves() of some corner, in cells that are whole in the domain.
+/// Same as certifiedPointProves() for some corner, in cells entirely inside the domain.
 HWY_INLINE FragmentMask someProves(const shader::OpacityBounds& bounds, const FragmentEntries& entries,
                                    FragmentV margin, const Outline& outline) {
     const FragmentFloats d;
@@ -162,9 +162,8 @@ HWY_INLINE FragmentMask someProves(const shader::OpacityBounds& bounds, const Fr
     return proves;
 }
 
-/// Whether there is no corner, or nothing opaque in the box around them. All that certifiedDecide() knows of a piece
-/// are means of values in that box: it adds a margin to their range, and rounding there and here is less than two of a
-/// point's errors.
+/// True if there is no corner, or nothing opaque in the box around them. certifiedDecide() uses only means of values in
+/// that box: it adds a margin to their range, and the rounding there and here is less than two of a point's errors.
 HWY_INLINE FragmentMask hasNone(const shader::OpacityBounds& bounds, const Cells& cells, const FragmentEntries& entries,
                                 const FragmentErrors& errors, const Outline& outline) {
     FragmentMask some = outline.some[0];
@@ -176,7 +175,7 @@ HWY_INLINE FragmentMask hasNone(const shader::OpacityBounds& bounds, const Cells
 }
 
 HWY_INLINE void cutSome(const shader::CertifiedItem& item, const shader::OpacityBounds& bounds,
-                        const std::int32_t* numbers, std::size_t count, FragmentLook::Lanes& lanes) {
+                        const std::int32_t* numbers, std::size_t count, FragmentFilter::Lanes& lanes) {
     const FragmentFloats d;
     const FragmentWords words;
     const Scattered fragments{lanes, hn::LoadU(FragmentWhole(), numbers)};
@@ -195,8 +194,8 @@ HWY_INLINE void cutSome(const shader::CertifiedItem& item, const shader::Opacity
     const auto wordsOf = [&](FragmentMask mask) {
         return hn::IfThenElseZero(hn::RebindMask(words, hn::AndNot(outline.irregular, mask)), hn::Set(words, 1));
     };
-    std::array<std::uint32_t, FragmentLook::kMostLanes> isCertain;
-    std::array<std::uint32_t, FragmentLook::kMostLanes> isNone;
+    std::array<std::uint32_t, FragmentFilter::kMostLanes> isCertain;
+    std::array<std::uint32_t, FragmentFilter::kMostLanes> isNone;
     hn::StoreU(wordsOf(certain), words, isCertain.data());
     hn::StoreU(wordsOf(none), words, isNone.data());
     for (std::size_t lane = 0; lane < hn::Lanes(d) && lane < count; ++lane) {
@@ -205,8 +204,8 @@ HWY_INLINE void cutSome(const shader::CertifiedItem& item, const shader::Opacity
     }
 }
 
-void cutAll(const shader::CertifiedItem& item, const shader::OpacityBounds& bounds, const FragmentLook::Chosen& chosen,
-            FragmentLook::Lanes& lanes) {
+void cutAll(const shader::CertifiedItem& item, const shader::OpacityBounds& bounds,
+            const FragmentFilter::Chosen& chosen, FragmentFilter::Lanes& lanes) {
     for (std::size_t i = 0; i < chosen.count; i += hn::Lanes(FragmentFloats())) {
         cutSome(item, bounds, chosen.number.data() + i, chosen.count - i, lanes);
     }
@@ -223,7 +222,7 @@ namespace voxtact::cpu {
 HWY_EXPORT(cutAll);
 
 void cutFragments(const shader::CertifiedItem& item, const shader::OpacityBounds& bounds,
-                  const FragmentLook::Chosen& chosen, FragmentLook::Lanes& lanes) noexcept {
+                  const FragmentFilter::Chosen& chosen, FragmentFilter::Lanes& lanes) noexcept {
     HWY_DYNAMIC_DISPATCH(cutAll)(item, bounds, chosen, lanes);
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/touch/cells/volume_cells.h"
-#include "host/touch/fragment_look.h"
+#include "host/touch/fragment_filter.h"
 
 #include <array>
 #include <cstddef>
@@ -10,8 +10,7 @@
 
 namespace voxtact::cpu {
 
-/// Counts fragments in cells that are opaque in part: most by one look at many of them, the others one by one. One
-/// thread's.
+/// Counts fragments in partly opaque cells: most in batches, the others one by one. Not thread-safe.
 template <class Kept> class PartCounter {
     using Place = std::array<std::int32_t, 3>;
     using VoxelPoint = shader::VoxelPoint;
@@ -28,23 +27,23 @@ template <class Kept> class PartCounter {
     PartCounter(const CertifiedJob& job, const VolumeCells<Kept>& cells)
         : cells_(cells), item_(job.occupancy.item()), opaque_(job.occupancy.opaque()) {}
 
-    [[nodiscard]] bool full() const { return look_.full(); }
-    /// The next fragment; expects room. `passes`: it is clear that certifiedClip() leaves something of it.
+    [[nodiscard]] bool full() const { return filter_.full(); }
+    /// Adds a fragment; expects room. `passes`: certifiedClip() certainly leaves a part of it.
     void add(const Triangle& triangle, const Place& cell, const BrickCells& known, bool passes) {
         const auto corners = cells_.corners(cell[0], cell[1], cell[2], known);
-        waiting_[look_.count()] = {triangle, cell, corners};
-        look_.add({triangle.corners, triangle.delta, cell, corners, passes});
+        waiting_[filter_.count()] = {triangle, cell, corners};
+        filter_.add({triangle.corners, triangle.delta, cell, corners, passes});
     }
     /// Counts those that were added since the last time. Calls `again(triangle, cell)` for those that the first place
     /// of their triangles leaves undecided: the verdict when they are placed precisely.
     template <class Again> [[nodiscard]] CertifiedTally count(const Again& again) {
-        const std::size_t count = look_.count();
-        look_.look(item_, opaque_.bounds);
+        const std::size_t count = filter_.count();
+        filter_.test(item_, opaque_.bounds);
         CertifiedTally tally;
         for (std::size_t i = 0; i < count; ++i) {
-            const int verdict = look_.isNone(i)      ? CERTIFIED_NONE
-                                : look_.isCertain(i) ? CERTIFIED_CERTAIN
-                                                     : decide(waiting_[i], again);
+            const int verdict = filter_.isNone(i)      ? CERTIFIED_NONE
+                                : filter_.isCertain(i) ? CERTIFIED_CERTAIN
+                                                       : decide(waiting_[i], again);
             tally.certain += verdict == CERTIFIED_CERTAIN ? 1 : 0;
             tally.undecided = tally.undecided || verdict == CERTIFIED_UNDECIDED;
         }
@@ -60,7 +59,7 @@ template <class Kept> class PartCounter {
 
     template <class Again> int decide(const Waiting& fragment, const Again& again) const {
         const auto& [a, b, c] = fragment.triangle.corners;
-        shader::CertifiedTriangle triangle{}; // what certifiedBegin() needs of it
+        shader::CertifiedTriangle triangle{}; // input of certifiedBegin()
         triangle.corner0 = a;
         triangle.corner1 = b;
         triangle.corner2 = c;
@@ -77,7 +76,8 @@ template <class Kept> class PartCounter {
         return verdict == CERTIFIED_UNDECIDED ? again(fragment.triangle, fragment.cell) : verdict;
     }
 
-    /// Whether a corner proves what certifiedSettle() would find, as it looks at all corners before it gives up.
+    /// Returns true if a corner proves a touch, as certifiedSettle() would find, because it tests all corners before it
+    /// fails.
     bool someProves(const shader::CertifiedCell& cell, const VoxelPoint* polygon, int count) const {
         for (int i = 0; i < count; ++i) {
             const VoxelPoint& at = polygon[i];
@@ -91,8 +91,8 @@ template <class Kept> class PartCounter {
     const VolumeCells<Kept>& cells_;
     shader::CertifiedItem item_;
     shader::OpaqueValues opaque_;
-    FragmentLook look_;
-    std::array<Waiting, FragmentLook::kMost> waiting_;
+    FragmentFilter filter_;
+    std::array<Waiting, FragmentFilter::kMost> waiting_;
 };
 
 } // namespace voxtact::cpu

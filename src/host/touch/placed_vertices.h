@@ -30,7 +30,7 @@ class PlacedVertices {
         }
         return firstTriangle(run);
     }
-    /// The same without placing it.
+    /// Returns the index of the first triangle without transforming the run.
     [[nodiscard]] std::size_t firstTriangle(std::uint32_t run) const {
         return mesh_.clusters[run / ClusterTree::kRunsOfCluster].firstTriangle +
                run % ClusterTree::kRunsOfCluster * kRunTriangles;

@@ -12,7 +12,7 @@ namespace voxtact::cpu {
 /// The fragments of a triangle whose first place is too uncertain for them: it is placed precisely. One thread's.
 template <class Kept> class PreciseFragments {
   public:
-    /// What is found of a fragment.
+    /// Verdict on a fragment.
     struct Found {
         int verdict = CERTIFIED_UNDECIDED;
         shader::CertifiedCorners corners; ///< with which it was found
@@ -34,14 +34,14 @@ template <class Kept> class PreciseFragments {
         triangle_ = shader::preciseTriangle(job_.transform, item_, vertex(0), vertex(1), vertex(2));
         number_ = triangle;
     }
-    /// False: nothing can be said.
+    /// False: no verdict is possible.
     [[nodiscard]] bool known() const { return shader::preciseKnown(triangle_); }
     /// Expects one that is known.
     [[nodiscard]] bool outside() const { return triangle_.outside; }
     [[nodiscard]] shader::PrecisePlane plane() const { return shader::precisePlane(item_, triangle_); }
 
-    /// In the cell (x, y, z): precisely; with the range of the cell's own voxels; and the part of it that is certainly
-    /// in the domain.
+    /// Decides the fragment in the cell (x, y, z): precisely, with the range of the cell's own voxels, and with the
+    /// part that is certainly in the domain.
     [[nodiscard]] Found decide(std::int32_t x, std::int32_t y, std::int32_t z, const BrickCells& brick) const {
         Found found;
         found.corners = cells_.corners(x, y, z, brick);
@@ -57,7 +57,7 @@ template <class Kept> class PreciseFragments {
                 cell = shader::preciseWithin(cell);
             }
             found.verdict = settle(cell, x, y, z, within, found.witness);
-            // What is certainly in the domain has no opaque point, but there is more.
+            // The part that is certainly in the domain has no opaque point, but other parts may.
             found.verdict = within && found.verdict == CERTIFIED_NONE ? CERTIFIED_UNDECIDED : found.verdict;
         }
         return found;

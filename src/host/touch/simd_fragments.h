@@ -8,7 +8,7 @@
 #endif
 
 #include "host/simd_exact.h"
-#include "host/touch/fragment_look.h"
+#include "host/touch/fragment_filter.h"
 
 #include <hwy/highway.h>
 
@@ -21,7 +21,7 @@ namespace voxtact::cpu {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using FragmentFloats = hn::CappedTag<float, FragmentLook::kMostLanes>;
+using FragmentFloats = hn::CappedTag<float, FragmentFilter::kMostLanes>;
 using FragmentV = hn::Vec<FragmentFloats>;
 using FragmentMask = hn::Mask<FragmentFloats>;
 using FragmentWhole = hn::RebindToSigned<FragmentFloats>;
@@ -30,19 +30,19 @@ using FragmentWords = hn::RebindToUnsigned<FragmentFloats>;
 HWY_INLINE FragmentV all(float value) {
     return hn::Set(FragmentFloats(), value);
 }
-/// As certifiedMin() and certifiedMax() are: what is not a number stays where it is first.
+/// Same as certifiedMin() and certifiedMax(): NaN stays if it is first.
 HWY_INLINE FragmentV lesser(FragmentV a, FragmentV b) {
     return hn::IfThenElse(hn::Lt(b, a), b, a);
 }
 HWY_INLINE FragmentV greater(FragmentV a, FragmentV b) {
     return hn::IfThenElse(hn::Gt(b, a), b, a);
 }
-/// As certifiedClamp().
+/// Same as certifiedClamp().
 HWY_INLINE FragmentV clamped(FragmentV value, FragmentV lo, FragmentV hi) {
     return hn::IfThenElse(hn::Ge(value, lo), hn::IfThenElse(hn::Le(value, hi), value, hi), lo);
 }
 
-/// A cell along an axis, as certifiedDomain() has it.
+/// A cell along an axis, as in certifiedDomain().
 struct AlongCell {
     FragmentV place; ///< of the cell's corner
     FragmentV lo;
@@ -59,7 +59,7 @@ HWY_INLINE AlongCell alongCell(hn::Vec<FragmentWhole> cell, std::int32_t size) {
             hn::Not(hn::Or(begins, ends))};
 }
 
-/// As certifiedEntry().
+/// Same as certifiedEntry().
 HWY_INLINE FragmentV entryOf(const shader::CertifiedItem& item, FragmentV stored) {
     return hn::Mul(hn::Sub(stored, all(item.storedReference)), all(item.entryScale));
 }
@@ -78,7 +78,7 @@ struct FragmentRanges {
     FragmentV greatest;
 };
 
-/// As certifiedBoxRange().
+/// Same as certifiedBoxRange().
 HWY_INLINE FragmentRanges rangesIn(const FragmentEntries& entries, const FragmentBoxes& boxes) {
     const auto side = [&](FragmentV x) {
         const FragmentV v00 = lerp(entries[0], entries[1], x);
@@ -116,12 +116,12 @@ HWY_INLINE FragmentErrors errorsOf(const shader::CertifiedItem& item, FragmentV 
     return {point, hn::Add(point, hn::Mul(shifted, all(8)))};
 }
 
-/// Whether nothing from `range.least` to `range.greatest` is opaque, each of which may be off by `slack`.
+/// True if no value from `range.least` to `range.greatest` is opaque, with an error of `slack`.
 HWY_INLINE FragmentMask noneIn(const shader::OpacityBounds& bounds, const FragmentRanges& range, FragmentV slack) {
     return hn::Or(hn::Lt(hn::Add(range.greatest, slack), all(bounds.first)),
                   hn::Gt(hn::Sub(range.least, slack), all(bounds.last)));
 }
-/// Whether all of it is.
+/// True if every value is opaque.
 HWY_INLINE FragmentMask allIn(const shader::OpacityBounds& bounds, const FragmentRanges& range, FragmentV slack) {
     return hn::And(hn::Ge(hn::Sub(range.least, slack), all(bounds.allFirst)),
                    hn::Le(hn::Add(range.greatest, slack), all(bounds.allLast)));

@@ -10,7 +10,7 @@
 
 namespace voxtact::cpu {
 
-/// Which vertices prove a touch, each asked once for all triangles that have it. One thread's.
+/// Finds the vertices that prove a touch; tests each once for all of its triangles. Not thread-safe.
 template <class Kept> class VertexProofs {
   public:
     /// All must outlive it. `delta`: no triangle of the mesh has a larger one.
@@ -18,8 +18,8 @@ template <class Kept> class VertexProofs {
                  float delta)
         : cells_(cells), placed_(placed), bounds_(bounds), delta_(delta) {}
 
-    /// Of a vertex of the cluster that is placed: true only where certifiedSettle() finds each of its triangles certain
-    /// in the cell that it is in.
+    /// Tests a vertex of the current cluster: true only if certifiedSettle() finds each of its triangles certain in its
+    /// cell.
     [[nodiscard]] bool prove(std::size_t vertex) {
         if (placed_.firstVertex() != first_) {
             found_.fill(Found::kNotAsked);
@@ -35,8 +35,8 @@ template <class Kept> class VertexProofs {
   private:
     enum class Found : std::uint8_t { kNotAsked, kProves, kNot };
 
-    /// As certifiedVertexProves(), but by the bounds alone: what they say of a range they say of any part of it, and a
-    /// triangle of a smaller delta has such a part.
+    /// Same as certifiedVertexProves(), by bounds alone: a bound of a range holds for each part, and triangles with a
+    /// smaller delta have such parts.
     [[nodiscard]] bool proves(const shader::VoxelPoint& vertex) const {
         const auto place = cells_.cellWith(vertex);
         if (!place) {

@@ -15,17 +15,17 @@
     scene.area(knife, poses).lower                 # mm^2
     scene.overlap(knife, poses).lower              # mm^3
     scene.motion(knife, poses).toi_lower           # collision-free from each pose up to this parameter
-    scene.opacity = [(100, 0), (200, 1)]           # the next query uses it
-    scene.edit(ball=(x, y, z, r), value=-1000)     # and this
+    scene.opacity = [(100, 0), (200, 1)]           # the next query uses the edit
+    scene.edit(ball=(x, y, z, r), value=-1000)     # and this one
 
-A sample of the volume is opaque where its opacity reaches the threshold. Answers are certified: no means no contact,
-yes is proven by a point, and a rare pair is `undecided` by rounding. No GPU is needed; ``device=True`` takes a Vulkan
-one.
+A sample of the volume is opaque if its opacity reaches the threshold. Answers are certified: no means no contact,
+yes is proven by a point, and rounding leaves rare pairs `undecided`. No GPU is needed; ``device=True`` uses a Vulkan
+device.
 
-Arrays of voxels are indexed [z, y, x]; points, spacings and voxel numbers are x, y, z. The world is LPS (+x left, +y
-posterior, +z superior), in millimetres. Matrices are written row by row and multiply columns.
+Arrays of voxels are indexed [z, y, x]; points, spacings and voxel indices are x, y, z. The world is LPS (+x left, +y
+posterior, +z superior), in millimetres. Matrices are row-major and multiply columns.
 
-Refusals raise a `voxtact.Error`, which names the failure, the value and the fix; arguments of a wrong type, such as a
+Errors raise a `voxtact.Error`, which names the failure, the value and the fix; arguments of a wrong type, such as a
 text for a number, raise TypeError.
 """
 from ._answer import Area, Count, Counters, Distance, Overlap, Touch
@@ -111,7 +111,7 @@ __all__ = [
     "write_png",
 ]
 
-# Where its users have them from.
+# Public names report the package as their module.
 for _name in __all__:
     if isinstance(globals()[_name], type) or callable(globals()[_name]):
         globals()[_name].__module__ = "voxtact"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Answers of scenes: numpy arrays, made when they are read."""
+"""Answers of scenes: numpy arrays, created on access."""
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, Optional
@@ -26,48 +26,48 @@ _CLOSEST = np.dtype([("triangle", np.int64), ("mesh", np.float64, 3), ("volume",
 class Counters(NamedTuple):
     """Counters of the passes of the projection "certified" on a device, for all poses: docs/engine.md.
 
-    `most_…` are peaks of a round.
+    `most_…`: peaks of a round.
     """
 
-    #: of 64 triangles, tested, once for each pair
+    #: clusters of 64 triangles that were tested, once for each pair
     clusters: int
-    #: of these, may touch
+    #: of these, those that may touch
     clusters_kept: int
-    #: of 16 triangles, may touch
+    #: runs of 16 triangles that may touch
     runs_kept: int
     #: shares of triangles with more than 27 cells
     large_parts: int
-    #: of these triangles, tested
+    #: bricks of these triangles that were tested
     bricks_seen: int
-    #: of all triangles in bricks that may be opaque, tested
+    #: cells of all triangles that were tested, in bricks that may be opaque
     cells_seen: int
-    #: of these, need a decision
+    #: of these, cells that need a decision
     cells_listed: int
-    #: of cells_seen, count without one: opaque all over, and a triangle clearly in them
+    #: of cells_seen, counted without a decision: opaque, a triangle clearly inside
     cells_certain: int
-    #: by a lane each; the others are of pairs that touch anyway, or had no room
+    #: cells that a lane decided; others: the pair touches anyway, or no room
     cells_decided: int
-    #: dispatched for them
+    #: lanes dispatched for these cells
     lanes: int
-    #: of these, left undecided by single precision
+    #: of these, cells that single precision left undecided
     cells_open: int
-    #: what a queue had no room for: shares of work groups
+    #: shares of work groups for which a queue had no room
     left: int
-    #: tested for these
+    #: bricks tested for these
     bricks_left: int
-    #: tested for these, and decided where they need it
+    #: cells tested for these, and decided if needed
     cells_left: int
     #: dispatches of each pass
     rounds: int
-    #: clusters that a round can have
+    #: maximum number of clusters in a round
     room: int
     #: peak of clusters_kept
     most_clusters: int
     #: peak of runs_kept
     most_runs: int
-    #: peak of large_parts, those without room among them
+    #: peak of large_parts, including those without room
     most_parts: int
-    #: peak of cells_listed, those without room among them
+    #: peak of cells_listed, including those without room
     most_cells: int
     #: peak of cells_open
     most_open: int
@@ -80,19 +80,19 @@ class Counters(NamedTuple):
 
 
 class _Answer:
-    """The common part of all answers about pairs."""
+    """Common part of all answers about pairs."""
 
     __slots__ = ("_tables",)
     _tables: Tables
 
     @property
     def item(self) -> npt.NDArray[np.uint32]:
-        """(N,): number of the mesh in the given list; 0 for a single mesh."""
+        """(N,): index of the mesh in the given list; 0 for a single mesh."""
         return self._tables.item()
 
     @property
     def pose(self) -> npt.NDArray[np.uint32]:
-        """(N,): number of the pose among those of its mesh."""
+        """(N,): index of the pose among those of its mesh."""
         return self._tables.pose()
 
     @property
@@ -121,7 +121,7 @@ class _Decided(_Answer):
 
     @property
     def device_seconds(self) -> float:
-        """Duration on the device; 0 on the host, and where the queue has no timestamps."""
+        """Duration on the device; 0 on the host, and if the queue has no timestamps."""
         return self._tables.total("gpu_milliseconds") / 1000
 
     @property
@@ -157,7 +157,7 @@ class Touch(_Decided):
     def witness(self) -> npt.NDArray[np.void]:
         """(N,): a witness point of each yes, with `witness=True`.
 
-        `triangle`, its number in the mesh, -1 without a witness point; `position` (3), LPS, mm: opaque, and on the
+        `triangle`, its index in the mesh, -1 without a witness point; `position` (3), LPS, mm: opaque, and on the
         triangle or within the margin of it, else NaN; `label` there, 0 without a label map.
         """
         if not self._with_witness:
@@ -206,7 +206,7 @@ class Count(_Decided):
 
     @property
     def count_exact(self) -> npt.NDArray[np.bool_]:
-        """(N,): the count is exact; elsewhere it is a lower bound."""
+        """(N,): True if the count is exact; False: a lower bound."""
         found: npt.NDArray[np.bool_] = self._tables.rows("pairs")["exactness"] == 0
         return found
 
@@ -217,10 +217,10 @@ class Count(_Decided):
 
     @property
     def contacts(self) -> npt.NDArray[np.void]:
-        """A row for each passing fragment, by pair, triangle and place.
+        """A row for each passing fragment, by pair, triangle and position.
 
         `pair`; `triangle`; `position` (3), LPS, mm, on the triangle; `normal` (3), unit vector out of the opaque
-        region, 0 where there is none; `depth`, mm along the normal to the end of the opaque region; `value` and
+        region, 0 without a gradient; `depth`, mm along the normal to the end of the opaque region; `value` and
         `opacity` of the image there; `label`, 0 without a label map.
         """
         tables = self._output("contacts")
@@ -228,7 +228,7 @@ class Count(_Decided):
 
     @property
     def contacts_found(self) -> int:
-        """The number of contacts; more than the rows of `contacts` where `max_contacts` cut the list."""
+        """The number of contacts; larger than the rows of `contacts` if `max_contacts` cut the list."""
         return int(self._output("contacts").total("contacts_found"))
 
     @property
@@ -258,7 +258,7 @@ class Count(_Decided):
         return Counters(*numbers)
 
     def _output(self, name: str) -> Tables:
-        """Returns the tables that have an output; asks again where they lack it."""
+        """Returns the tables with an output; repeats the question if they lack it."""
         if self._tables.outputs >> _OUTPUTS.index(name) & 1:
             return self._tables
         if self._later is None:
@@ -284,7 +284,7 @@ class Count(_Decided):
         return f"<voxtact.Count: {self._verdicts()}; {self.projection}, {self.method}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        self._tables.counters(Counters._fields)  # which are kept then
+        self._tables.counters(Counters._fields)  # kept for later requests
         return restored, (Count, {"_tables": self._tables, "_scene": None, "_later": dict(self._later or {})})
 
 
@@ -331,12 +331,12 @@ class Distance(_Measured):
 
     @property
     def lower(self) -> npt.NDArray[np.float64]:
-        """(N,) or (N,L): lower bound, mm; 0 where the mesh touches."""
+        """(N,) or (N,L): lower bound, mm; 0 if the mesh touches."""
         return self._column("lower")
 
     @property
     def upper(self) -> npt.NDArray[np.float64]:
-        """(N,) or (N,L): upper bound, mm; infinite beyond `max`, and where nothing is opaque."""
+        """(N,) or (N,L): upper bound, mm; infinite beyond `max`, and if nothing is opaque."""
         return self._column("upper")
 
     @property
@@ -351,9 +351,9 @@ class Distance(_Measured):
 
     @property
     def closest(self) -> npt.NDArray[np.void]:
-        """(N,): two witness points of `upper`, LPS, mm, and the gradient of their distance by the pose.
+        """(N,): two witness points of `upper`, LPS, mm, and the gradient of their distance with respect to the pose.
 
-        `triangle`, -1 without witness points, whose rest is NaN; `mesh` (3) on the triangle; `volume` (3), opaque;
+        `triangle`, -1 without witness points, with NaN elsewhere; `mesh` (3) on the triangle; `volume` (3), opaque;
         `per_translation` (3), mm per mm along the world's axes; `per_rotation` (3), mm per radian about axes through
         the object's origin.
         """
@@ -412,7 +412,7 @@ class Area(_Measured):
 
     @property
     def triangles(self) -> npt.NDArray[np.void]:
-        """(T,): triangles that may have an area, by pair, then by number, with `triangles=True`.
+        """(T,): triangles that may have an area, by pair, then by index, with `triangles=True`.
 
         `pair`, `triangle`, `whole`, the triangle's own area, and its bounds `lower` and `upper`, mm^2.
         """
@@ -485,7 +485,7 @@ class Overlap(_Measured):
 
     @property
     def bands(self) -> npt.NDArray[np.float64]:
-        """(B,2): the limits of each band: values from the first to below the second; empty without bands."""
+        """(B,2): the limits of each band: values from the first limit to below the second; empty without bands."""
         if self._bands is None:
             return np.zeros((0, 2))
         return np.stack([[-np.inf, *self._bands], [*self._bands, np.inf]], axis=1)

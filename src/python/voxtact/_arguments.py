@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What questions are asked with: meshes, poses, points of opacity, progress; and how it is refused."""
+"""Arguments of questions: meshes, poses, points of opacity and progress, with their checks."""
 from __future__ import annotations
 
 import os
@@ -29,7 +29,7 @@ Progress = Union[None, Callable[[int, int], object], Any]
 
 @contextmanager
 def told(progress: Progress, pairs: int) -> Iterator[Optional[Callable[[int, int], object]]]:
-    """What the library calls as callback(done, all)."""
+    """Returns the callback of the library, called as callback(done, all)."""
     if progress is None:
         yield None
         return
@@ -57,15 +57,15 @@ def told(progress: Progress, pairs: int) -> Iterator[Optional[Callable[[int, int
 
 
 def _poses(given: Any) -> npt.NDArray[np.float64]:
-    """Of a mesh. An empty list is none."""
+    """Returns the poses of a mesh; refuses an empty list."""
     if hasattr(given, "__next__"):
         raise TypeError(f"poses is a {type(given).__name__}; a list of them or an array is needed, (N,4,4) or (4,4)")
     return np.zeros((0, 4, 4)) if isinstance(given, (list, tuple)) and len(given) == 0 else numbers(given, "poses")
 
 
 def asked(mesh: Any, poses: Any, volume: Volume) -> tuple[Any, Any]:
-    """What the library takes: a mesh and its poses, or a list of such pairs. Warned of once for each volume: spaces
-    that nobody has said, and that differ."""
+    """Returns a mesh with its poses, or a list of such pairs, in the library's form. Warns once for each volume if
+    volume and mesh have different, unstated spaces."""
     if isinstance(mesh, Mesh):
         if poses is None:
             raise TypeError("poses are missing: (N,4,4) or (4,4), world_from_object, row by row, mm, LPS")

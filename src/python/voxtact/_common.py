@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What volumes and meshes have in common."""
+"""Common parts of volumes and meshes."""
 from __future__ import annotations
 
 import operator
@@ -15,18 +15,18 @@ from ._errors import InvalidArgumentError
 #: as DICOM, ITK and voxtact have it. Both in millimetres.
 Space = Literal["ras", "lps"]
 
-#: Takes points of RAS to LPS, and back: ``poses = LPS_FROM_RAS @ poses``.
+#: Maps points from RAS to LPS, and back: ``poses = LPS_FROM_RAS @ poses``.
 LPS_FROM_RAS: npt.NDArray[np.float64] = np.diag([-1.0, -1.0, 1.0, 1.0])
 LPS_FROM_RAS.setflags(write=False)
 
 _FLOAT = np.dtype(np.float64)
 
-#: What names of volumes and meshes that need no file begin with.
+#: Prefix of builtin volumes and meshes.
 BUILTIN = "builtin:"
 
 
 def encoded(path: Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]) -> bytes:
-    """A path for the library, where the end of a text is no zero."""
+    """Encodes a path for the library; refuses a NUL character."""
     try:
         name = os.fsencode(path)
     except UnicodeEncodeError:
@@ -37,7 +37,7 @@ def encoded(path: Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]) -
 
 
 def encoded_text(given: str, what: str) -> bytes:
-    """A text for the library, from which bytes that are not UTF-8 come back as they were."""
+    """Encodes text for the library; bytes that are not UTF-8 round-trip."""
     if not isinstance(given, str):
         raise TypeError(f"{what} is a {type(given).__name__}; a text is needed")
     try:
@@ -47,20 +47,20 @@ def encoded_text(given: str, what: str) -> bytes:
 
 
 def not_pickled(of: object) -> NoReturn:
-    """What `__reduce__` of each class does that stays in its process."""
+    """Implements `__reduce__` of classes that cannot be pickled."""
     name = type(of).__name__
     raise TypeError(f"a voxtact.{name} cannot be pickled or copied: it is made of memory of this process; "
                     "make another one from the same file or arrays")
 
 
 def no_truth(of: object, ask: str) -> NoReturn:
-    """What `__bool__` of each answer does: an object that has rows would be true, whatever is in them."""
+    """Implements `__bool__` of answers: refuses, because an object with rows would always be true."""
     raise TypeError(f"a voxtact.{type(of).__name__} is neither true nor false: it has a row for each of what was asked; "
                     f"look at {ask}")
 
 
 def restored(kind: type, slots: dict[str, Any]) -> Any:
-    """An object of a class with these slots: what pickle calls."""
+    """Restores an object of a class with these slots from a pickle."""
     made: Any = object.__new__(kind)
     for name, value in slots.items():
         setattr(made, name, value)
@@ -68,13 +68,13 @@ def restored(kind: type, slots: dict[str, Any]) -> Any:
 
 
 def check_made(made_of: object, kind: type, by: str) -> None:
-    """For the constructors of what scenes answer."""
+    """Refuses a direct call of the constructor of an answer."""
     if not isinstance(made_of, kind):
         raise TypeError(f"{by} makes one; a {type(made_of).__name__} cannot")
 
 
 def array_of(given: Any, what: str) -> npt.NDArray[Any]:
-    """An array, not copied where it is one. Rows of different lengths are none; what is masked has no value."""
+    """Converts to an array, without a copy if possible. Refuses ragged rows and masked values."""
     if isinstance(given, np.ma.MaskedArray) and np.any(given.mask):
         raise InvalidArgumentError(f"{what}: some of the masked array is masked and has no value; fill it "
                                    "(`.filled(value)`)")
@@ -85,7 +85,7 @@ def array_of(given: Any, what: str) -> npt.NDArray[Any]:
 
 
 def numbers(given: npt.ArrayLike, what: str) -> npt.NDArray[np.float64]:
-    """An array of numbers as float64, not copied where it is one. Complex numbers, texts and dates are none."""
+    """Converts to a float64 array, without a copy if possible. Refuses complex numbers, texts and dates."""
     if type(given) is np.ndarray and given.dtype == _FLOAT:
         return given
     array = array_of(given, what)
@@ -100,15 +100,15 @@ def numbers(given: npt.ArrayLike, what: str) -> npt.NDArray[np.float64]:
 
 
 def exact_in_float32(whole: npt.NDArray[Any]) -> bool:
-    """Whether float32 has every one of these whole numbers."""
+    """Returns True if float32 represents each of these whole numbers exactly."""
     floats = whole.astype(np.float32)
     end = np.float32(2.0) ** (8 * whole.dtype.itemsize - (whole.dtype.kind == "i"))
-    back = (floats >= -end) & (floats < end)  # what can be a number of the type again
+    back = (floats >= -end) & (floats < end)  # types that convert back to a number
     return bool(back.all() and (floats.astype(whole.dtype) == whole).all())
 
 
 def listed(given: Any, what: str) -> list[Any]:
-    """What is in a sequence. A text is none: it would be its letters."""
+    """Returns the items of a sequence. Refuses a text, whose items are letters."""
     if isinstance(given, (str, bytes)):
         raise TypeError(f"{what} is a {type(given).__name__}; a sequence is needed: [{given!r}]")
     try:
@@ -117,12 +117,12 @@ def listed(given: Any, what: str) -> list[Any]:
         raise TypeError(f"{what} is a {type(given).__name__}; a sequence is needed") from None
     try:
         return list(given)
-    except LookupError:  # it has lengths and items, and is no sequence
+    except LookupError:  # a mapping has length and items, but is no sequence
         raise TypeError(f"{what} is a {type(given).__name__}; a sequence is needed") from None
 
 
 def number(given: Any, what: str) -> float:
-    """A number as float. Texts and truth values are none, though float() takes them."""
+    """Converts to float. Refuses texts and truth values, which float() accepts."""
     kind = getattr(getattr(given, "dtype", None), "kind", "f")
     try:
         if not isinstance(given, (str, bytes, bytearray, bool)) and kind in ("i", "u", "f", "O"):
@@ -131,18 +131,18 @@ def number(given: Any, what: str) -> float:
         raise InvalidArgumentError(f"{what} is too large a number") from None
     except (TypeError, ValueError):
         pass
-    shown = " ".join(repr(given).split())  # an array has lines
+    shown = " ".join(repr(given).split())  # multi-line representation of an array
     raise TypeError(f"{what} is {shown}; a number is needed")
 
 
 def whole_number(given: Any, what: str, least: int = 0, most: int = 2**32 - 1) -> int:
-    """A whole number in these limits, which hold in 32 bits without a sign. Truth values are none."""
+    """Converts to a whole number within limits, which fit in unsigned 32 bits. Refuses truth values."""
     try:
         if isinstance(given, (bool, np.bool_)):
             raise TypeError
         found = operator.index(given)
     except TypeError:
-        shown = " ".join(repr(given).split())  # an array has lines
+        shown = " ".join(repr(given).split())  # multi-line representation of an array
         raise TypeError(f"{what} is {shown}; a whole number is needed") from None
     if not least <= found <= most:
         raise InvalidArgumentError(f"{what} is {found}; a whole number from {least} to {most} is needed")
@@ -150,7 +150,7 @@ def whole_number(given: Any, what: str, least: int = 0, most: int = 2**32 - 1) -
 
 
 def checked_space(space: Any, argument: str) -> Space:
-    """In capitals, too."""
+    """Checks the name of a space, in any case."""
     lower = space.lower() if isinstance(space, str) else space
     if lower not in ("ras", "lps"):
         raise InvalidArgumentError(f"{argument}={space!r} is neither 'ras' nor 'lps'")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the package is thin on: the C interface by cffi. Import voxtact instead: this has neither checks nor promises.
+"""Wraps the C interface with cffi. Internal: import voxtact instead.
 
 Sizes and boxes are x, y, z; arrays of voxels are z, y, x.
 """

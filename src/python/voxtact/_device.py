@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The Vulkan devices that scenes and pictures may be on."""
+"""Vulkan devices for scenes and pictures."""
 from __future__ import annotations
 
 import os
@@ -12,36 +12,37 @@ from ._common import encoded_text, not_pickled
 class DeviceInfo(NamedTuple):
     """A Vulkan device of this machine."""
 
-    #: What `Device` takes.
+    #: Argument of `Device`.
     number: int
     name: str
     #: "discrete", "integrated", "virtual", "cpu" or "other"
     kind: str
     driver: str
-    #: of Vulkan, as "1.3.230"
+    #: Vulkan version, as "1.3.230"
     api: str
 
 
 def devices() -> list[DeviceInfo]:
-    """The Vulkan devices of this machine. UnsupportedError where there is none, with what to install."""
+    """Returns the Vulkan devices of this machine. UnsupportedError without one; its text names the packages to install.
+    """
     return [DeviceInfo(*facts) for facts in core.Device.every()]
 
 
 class MethodReport(NamedTuple):
-    """What a counting method is worth on a device."""
+    """State of a counting method on a device."""
 
-    #: a detector can be made for it
+    #: True: a detector can use it
     available: bool
-    #: it counted what was known beforehand
+    #: True: it counted the known number
     trusted: bool
-    #: what was counted and compared, or what is wrong
+    #: the counts and comparisons, or the failure
     text: str
 
 
 class Device:
-    """A Vulkan device, opened: for the `device` of scenes and pictures, which may share it.
+    """An open Vulkan device, for the `device` of scenes and pictures, which may share it.
 
-    which: its number in `devices()`, a part of its name, or nothing for the best one.
+    which: its index in `devices()`, a part of its name, or None for the best one.
     """
 
     __slots__ = ("_core",)
@@ -52,12 +53,12 @@ class Device:
 
     @property
     def info(self) -> DeviceInfo:
-        """Which one it is."""
+        """Facts of the device."""
         return DeviceInfo(*self._core.facts)
 
     @property
     def methods(self) -> dict[str, Optional[str]]:
-        """Every counting method: None where the device has it, else why not."""
+        """All counting methods: None if the device supports the method, else the reason."""
         return self._core.methods
 
     @property
@@ -67,8 +68,7 @@ class Device:
 
     def self_test(self) -> dict[str, MethodReport]:
         """Counts a known number of fragments by every method, and compares the arithmetic of "compute" with the host's,
-        bit for bit: whether this driver's answers can be trusted. Some ten milliseconds, and the making of pipelines.
-        """
+        bit for bit, to check this driver. Takes some ten milliseconds, plus pipeline creation."""
         return {report[0]: MethodReport(*report[1:]) for report in self._core.self_test()}
 
     def __repr__(self) -> str:
@@ -79,12 +79,12 @@ class Device:
         not_pickled(self)
 
 
-# By process: a device does not live on in the child of a fork.
+# One per process: a device does not survive a fork.
 _best_devices: dict[int, Device] = {}
 
 
 def best_device() -> Device:
-    """Opened once."""
+    """Opens the best device, once per process."""
     process = os.getpid()
     if process not in _best_devices:
         _best_devices[process] = Device()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a scene has on a device: the volume as edited, its opacity, detectors, and what pictures are made of."""
+"""The device part of a scene: the edited volume, its opacity, detectors, and inputs of pictures."""
 from __future__ import annotations
 
 import weakref
@@ -15,18 +15,18 @@ from ._request import Opacity, Question, Request
 from ._turns import interruptibly
 from ._wish import PictureWish
 
-#: Pipelines that are kept for ways of asking; the first in order make room.
+#: Maximum number of cached detectors; the oldest is evicted.
 _MAX_DETECTORS = 8
-#: Of one answer's outputs, so that no device's limit is near.
+#: Bytes of one answer's outputs, below the limits of all devices.
 _OUTPUT_BYTES = 2**25
 _MAX_PAIRS = 2**16
-#: of a picture's table
+#: table size of a picture
 _MAX_ENTRIES = 1024
 _CREASE_DEGREES = 40.0
 
 
 class _Uploaded:
-    """What is on the device of a mesh: for questions; and for pictures with its normals."""
+    """Device objects of a mesh: for questions, and for pictures with its normals."""
 
     __slots__ = ("asked", "drawn")
 
@@ -36,7 +36,7 @@ class _Uploaded:
 
 
 class DeviceSide:
-    """`cancel` ends its pictures."""
+    """The device part of a scene. `cancel` ends its pictures."""
 
     def __init__(self, device: Device, volume: Volume, view: CData, opacity: Opacity, labels: Optional[Labels],
                  cancel: CData) -> None:

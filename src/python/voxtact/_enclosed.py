@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What is said of a closed mesh that touches nothing and encloses something opaque: for a warning, not for an answer."""
+"""Finds an opaque region that a closed mesh encloses without touching it, for a warning."""
 from __future__ import annotations
 
 from typing import Optional
@@ -12,11 +12,11 @@ from ._volume import Volume
 
 _ALONG_A_SIDE = 64
 _TRIED = 16
-_WAY = np.array([0.5377, 0.3182, 0.7807])  # along which no edge lies
+_DIRECTION = np.array([0.5377, 0.3182, 0.7807])  # a direction parallel to no edge
 
 
 def _is_closed(mesh: Mesh) -> bool:
-    """Whether each edge is one of two triangles; corners at one place are one."""
+    """Returns True if each edge belongs to two triangles; corners at one position are one vertex."""
     _, places = np.unique(mesh.vertices, axis=0, return_inverse=True)
     corners = places.reshape(-1)[mesh.faces]
     edges = np.sort(np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]]), axis=1)
@@ -35,7 +35,7 @@ def _some_opaque(volume: Volume, opacity: npt.NDArray[np.float64], threshold: fl
 
 def enclosed(volume: Volume, opacity: npt.NDArray[np.float64], threshold: float, mesh: Mesh,
              pose: npt.NDArray[np.float64]) -> Optional[npt.NDArray[np.float64]]:
-    """An opaque place (3,) inside of a closed mesh at a pose, world mm; None where none of those that are tried is."""
+    """Returns an opaque point (3,) inside a closed mesh at a pose, world mm; None if no tested point is inside."""
     world = mesh.vertices.astype(np.float64) @ pose[:3, :3].T + pose[:3, 3]
     lo, hi = world.min(axis=0), world.max(axis=0)
     places = _some_opaque(volume, opacity, threshold)
@@ -44,13 +44,13 @@ def enclosed(volume: Volume, opacity: npt.NDArray[np.float64], threshold: float,
         return None
     a, b, c = (world[mesh.faces[:, corner]] for corner in range(3))
     u, v = b - a, c - a
-    normal = np.cross(_WAY, v)
+    normal = np.cross(_DIRECTION, v)
     size = (u * normal).sum(axis=1)
     for place in places[np.argsort(np.linalg.norm(places - (lo + hi) / 2, axis=1))[:_TRIED]]:
         with np.errstate(divide="ignore", invalid="ignore"):
             s = ((place - a) * normal).sum(axis=1) / size
             other = np.cross(place - a, u)
-            t, along = (other @ _WAY) / size, (v * other).sum(axis=1) / size
+            t, along = (other @ _DIRECTION) / size, (v * other).sum(axis=1) / size
         if ((s >= 0) & (t >= 0) & (s + t < 1) & (along > 0)).sum() % 2:
             return np.array(place)
     return None

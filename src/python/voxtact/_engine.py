@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Scenes and trackers over the library: what is asked goes to the host's side or to the device's, in pieces."""
+"""Scenes and trackers over the library: sends questions to the host or device part, in pieces."""
 from __future__ import annotations
 
 import warnings
@@ -19,16 +19,16 @@ from ._tables import SingleTables, Tables
 from ._turns import Tell, Turns, in_pieces, in_turn
 from ._wish import PictureWish
 
-#: Triangles that a first piece may look at: some milliseconds; and the poses that it has at most, as one triangle may
-#: go through all of the volume. A device, which cannot be interrupted, gets fewer; the host one for each thread at
-#: least.
+#: Maximum triangle tests of a first piece (some milliseconds), and its maximum number of poses, because one triangle
+#: may pass through the whole volume. A device, which cannot be interrupted, gets fewer; the host gets at least one per
+#: thread.
 _FIRST_TRIANGLES = 2**20
 _FIRST_ON_HOST = 64
 _FIRST_ON_DEVICE = 8
-#: Distances take that many times as long.
+#: Factor of the duration of a distance query.
 _DISTANCE_COST = 16
 _MAX_HOST_PAIRS = 2**20
-#: Of warnings: of who calls a method of the package.
+#: Stack level of warnings: the caller of a method of the package.
 _CALLER = 4
 _MAX_QUESTIONS = 64
 
@@ -48,7 +48,7 @@ def _check_threshold(threshold: float) -> None:
 
 
 def _warn_of_opacity(volume: Volume, opacity: Opacity, threshold: float, who: str) -> None:
-    """Where nothing is opaque. `who`: the argument that the points are from."""
+    """Warns if nothing is opaque. `who`: the argument with the points."""
     reaches, some = opacity.facts(volume, threshold)
     lo, hi = volume.range
     if not reaches:
@@ -59,13 +59,13 @@ def _warn_of_opacity(volume: Volume, opacity: Opacity, threshold: float, who: st
 
 
 def _label_members(labels: Optional[list[int]]) -> dict[str, Any]:
-    """No labels at all are a list, too: the pointer is not null."""
+    """Returns the labels as C members. An empty list is a list, too: its pointer is not null."""
     return {} if labels is None else {"labels": ffi.new("int32_t[]", labels or 1), "label_count": len(labels)}
 
 
 def _check_ways(request: Request, interpolation: int) -> None:
-    """Refuses an item of fewer than two poses, and two poses that no rigid motion joins. All are looked at before any
-    work, which counts from the first pose of each piece."""
+    """Refuses an item of fewer than two poses, and two poses without a rigid motion between them. Checks all before any
+    work, because the work counts from the first pose of each piece."""
     found = ffi.new("double[16]")
     for number, item in enumerate(request.of):
         which = "" if len(request.of) == 1 else f"item {number}: "
@@ -97,7 +97,7 @@ def _interpolation(name: bytes) -> int:
 
 
 class Scene:
-    """What `voxtact.Scene` is thin on: it has neither checks nor promises."""
+    """Implements `voxtact.Scene`, without checks."""
 
     __slots__ = ("_turns", "_volume", "_labels", "_device", "_threads", "_opacity", "threshold", "revision", "_host", "_on_device",
                  "_born", "_edited", "_open", "_questions", "_touches", "__weakref__")
@@ -125,13 +125,13 @@ class Scene:
 
     @in_turn
     def _begin(self) -> None:
-        """Makes the side that the scene is on, and the host's engine."""
+        """Creates the scene's part on host or device, and the host engine."""
         if self._device is not None:
             self._device_side(self._device)
         else:
             _ = self._host_side().engine
 
-    # What it has
+    # Properties
 
     @property
     def opacity(self) -> npt.NDArray[np.float64]:
@@ -159,7 +159,7 @@ class Scene:
         self._check_open()
         if self._on_device is not None and self._born != forks():
             if self._device is not None:
-                _ = self._device.context  # says why not
+                _ = self._device.context  # the error states the reason
             self._on_device = None
         if self._on_device is None:
             view, now = self._volume.view, None
@@ -172,7 +172,7 @@ class Scene:
         return self._on_device
 
     def _own_device_side(self) -> Optional[DeviceSide]:
-        """That of this process, where there is one."""
+        """Returns the device part of this process, if any."""
         return self._on_device if self._born == forks() else None
 
     # Changes
@@ -221,13 +221,13 @@ class Scene:
         self._edit("set_box", ffi.new("vxt_voxel_box*", {"first": first, "size": size}), value)
 
     def write_box(self, first: Sequence[int], voxels: npt.NDArray[Any]) -> None:
-        """`voxels`: z, y, x, of the volume's type and in C order."""
+        """Writes a box. `voxels`: z, y, x, of the volume's type and in C order."""
         self._edit("write", ffi.new("vxt_voxel_box*", {"first": first, "size": list(reversed(voxels.shape))}), voxels)
 
     # Questions about pairs
 
     def _question(self, options: dict[str, Any]) -> Question:
-        """That of these options, which is kept; a view is not."""
+        """Returns the cached question of these options; a view is not cached."""
         if "view" in options:
             return Question(options)
         key = tuple(options.items())
@@ -239,7 +239,7 @@ class Scene:
         return question
 
     def _touch_question(self, options: TouchOptions) -> TouchQuestion:
-        """That of these options, which is kept."""
+        """Returns the cached question of these options."""
         question = self._touches.get(options)
         if question is None:
             question = TouchQuestion(*options)
@@ -274,7 +274,7 @@ class Scene:
         try:
             in_pieces(total, first, most, progress, work)
         except InvalidArgumentError:
-            request.check()  # a pose of a request of one is looked at by the engine alone
+            request.check()  # the engine itself checks the pose of a request with one pose
             raise
 
     @in_turn
@@ -321,7 +321,7 @@ class Scene:
 
     @in_turn
     def again(self, asked: Any, output: str) -> Optional[Tables]:
-        """The same with an output; nothing where the scene has changed. `asked`: `Tables.again`."""
+        """Repeats the question with an output; None if the scene has changed. `asked`: `Tables.again`."""
         self._check_open()
         request, question, revision = asked
         if revision != self.revision:
@@ -330,7 +330,7 @@ class Scene:
 
     @in_turn
     def engine_seconds(self, meshes: Any, poses: Any, times: int) -> list[float]:
-        """Of the host engine, for one call of touch each: for benchmarks."""
+        """Returns the duration of one host call per touch, for benchmarks."""
         request, question, side = Request(meshes, poses), TouchQuestion(), self._host_side()
         seconds: list[float] = []
         for _ in range(times):
@@ -341,7 +341,7 @@ class Scene:
 
     @in_turn
     def _measured(self, kind: str, question: CData, request: Request, cost: int, progress: Tell) -> Tables:
-        """Of questions that the host engine alone answers."""
+        """Answers a question of the host engine."""
         side = self._host_side()
         ask = getattr(lib, f"vxt_ask_{kind}")
         is_motion = kind == "motion"
@@ -398,7 +398,7 @@ class Scene:
 
     def plan(self, target: npt.NDArray[np.float64], wish: dict[str, Any], avoided: Optional[Volume],
              points: Optional[npt.NDArray[np.float64]], domain: Optional[tuple[float, float]]) -> Tables:
-        """wish: members of vxt_plan by their names in C, and `avoid`, labels."""
+        """Answers a plan. wish: members of vxt_plan by their names in C, and `avoid`, labels."""
         opaque = None
         if points is not None:
             volume = self._volume if avoided is None else avoided
@@ -425,7 +425,7 @@ class Scene:
 
     @in_turn
     def track(self, tracker: CData, mesh: Mesh, place: CData, tracked: CData) -> None:
-        """Of one pose."""
+        """Tracks one pose."""
         item = self._host_side().item(mesh, place, 1)
         check(lib.vxt_tracker_track(tracker, ffi.addressof(item), self.threshold or -0.0, tracked))
 
@@ -437,7 +437,7 @@ class Scene:
 
 
 class Tracker:
-    """A mesh that moves by little from call to call."""
+    """Implements `voxtact.Tracker`, without checks."""
 
     __slots__ = ("_scene", "_mesh", "_handle")
 
@@ -449,7 +449,7 @@ class Tracker:
         self._handle = made("tracker", lib.vxt_tracker_create, max_distance, resolution, max_steps)
 
     def update(self, pose: npt.NDArray[np.float64]) -> tuple[bool, bool, float, float, bool]:
-        """Touches, undecided, the bounds, and whether the volume was searched."""
+        """Returns touches, undecided, the bounds, and whether the volume was searched."""
         place, tracked = ffi.new("double[16]", matrix(pose, "pose")), struct("tracked")
         self._scene.track(self._handle, self._mesh, place, tracked)
         return tracked.touch == 1, tracked.touch == 2, tracked.lower, tracked.upper, bool(tracked.searched)

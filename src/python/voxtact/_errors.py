@@ -11,45 +11,45 @@ _SURROGATES = re.compile("[\ud800-\udfff]")
 
 
 class Error(Exception):
-    """Anything that voxtact refuses, or that failed. The classes below say what kind of thing it was."""
+    """Base class of all exceptions of voxtact. The classes below state the kind."""
 
-    #: What kind, as a word: "invalid-argument", "unsupported", …
+    #: Kind of error: "invalid-argument", "unsupported", …
     code = "error"
-    #: The VkResult behind it; 0 where there is none.
+    #: VkResult of the error; 0 if there is none.
     vk_result = 0
 
     def __str__(self) -> str:
-        # What an argument looks like may have lines, and what a file has may be no UTF-8; this can be printed anywhere.
+        # Arguments may contain line breaks, and files bytes that are not UTF-8; the result is printable everywhere.
         text = str(self.args[0]) if self.args else ""
         return _SURROGATES.sub("\ufffd", " ".join(text.split("\n")))
 
 
 class InvalidArgumentError(Error, ValueError):
-    """An argument that can never be right: a wrong shape, a NaN, a number out of its range."""
+    """An invalid argument: a wrong shape, a NaN, a number out of its range."""
 
     code = "invalid-argument"
 
 
 class UnsupportedError(Error):
-    """This device, this engine or this machine cannot do it; another one may."""
+    """Not supported by this device, engine or machine; another may support it."""
 
     code = "unsupported"
 
 
 class LimitExceededError(Error):
-    """A limit, named in the text with its size."""
+    """A limit was exceeded; the text names it with its value."""
 
     code = "limit-exceeded"
 
 
 class OutOfMemoryError(Error, MemoryError):
-    """Memory of the host or the device."""
+    """Out of host or device memory."""
 
     code = "out-of-memory"
 
 
 class DeviceLostError(Error):
-    """The Vulkan device is gone. Whatever was made with it refuses from now on; open it again."""
+    """The Vulkan device is lost. Its objects refuse all calls; open it again."""
 
     code = "device-lost"
 
@@ -61,23 +61,23 @@ class VulkanError(Error):
 
 
 class FileError(Error, OSError):
-    """A file that cannot be read or written."""
+    """A file cannot be read or written."""
 
     code = "file"
 
 
 class MissingFileError(FileError, FileNotFoundError):
-    """A file, or a folder to write into, that is not there: with `errno` and `filename`."""
+    """A file or output folder does not exist; has `errno` and `filename`."""
 
 
 class FormatError(Error, ValueError):
-    """A file that can be read, but what it holds cannot be used."""
+    """The contents of a file cannot be used."""
 
     code = "format"
 
 
 class NotReadyError(Error):
-    """The object or output does not exist, or no longer: a closed scene, an output that was not requested."""
+    """The object or output does not exist: a closed scene, an output that was not requested."""
 
     code = "not-ready"
 
@@ -88,7 +88,7 @@ class InternalError(Error):
     code = "internal"
 
 
-# By the numbers of voxtact::ErrorCode.
+# In the order of voxtact::ErrorCode.
 _CLASSES: dict[int, type[Error]] = {
     1: InvalidArgumentError,
     2: UnsupportedError,
@@ -104,7 +104,7 @@ _CLASSES: dict[int, type[Error]] = {
 
 
 def exception(code: int, text: str, vk_result: int) -> Error:
-    """The exception of an error of the library."""
+    """Creates the exception for an error of the library."""
     made = _missing(text) if code == 7 else None
     made = made or _CLASSES.get(code, Error)(text)
     made.vk_result = vk_result
@@ -112,7 +112,7 @@ def exception(code: int, text: str, vk_result: int) -> Error:
 
 
 def _missing(text: str) -> Optional[Error]:
-    """Of a text about a file, where that is not there."""
+    """Creates a MissingFileError from the text about a missing file."""
     about = re.match("cannot (read|write) '(.*?)': ", text, re.DOTALL)
     if about is None or os.path.lexists(about[2] if about[1] == "read" else os.path.dirname(about[2]) or "."):
         return None

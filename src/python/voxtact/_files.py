@@ -16,21 +16,22 @@ from ._turns import guarded
 
 
 def read_poses(path: Union[str, os.PathLike[str]]) -> npt.NDArray[np.float64]:
-    """(N,4,4) from the program's files: one matrix a line, 16 numbers row by row; `#` comments."""
+    """Reads poses, (N,4,4), from a file: one matrix per line, 16 numbers row by row; `#` comments."""
     count = ffi.new("size_t*")
     poses = guarded(made, "poses", lib.vxt_read_poses, encoded(path))
     return matrices_of(lib.vxt_poses_get(poses, count), count[0])
 
 
 def read_camera(path: Union[str, os.PathLike[str]]) -> npt.NDArray[np.float64]:
-    """(4,4), clip_from_world, from one of the program's files."""
+    """Reads a camera, (4,4), clip_from_world, from a file."""
     found = ffi.new("double[16]")
     check(lib.vxt_read_camera(encoded(path), found))
     return matrix_of(found)
 
 
 def read_opacity(source: Union[str, os.PathLike[str]]) -> npt.NDArray[np.float64]:
-    """(N,2), value and opacity: from a file (lines `value opacity`, or JSON), or from text like "40:0,80:1"."""
+    """Reads opacity, (N,2), value and opacity: from a file (lines `value opacity`, or JSON), or from text like
+    "40:0,80:1"."""
     if isinstance(source, str) and ":" in source and not os.path.exists(source):
         points = made("control_points", lib.vxt_parse_opacity, encoded_text(source, "opacity"))
     else:
@@ -39,16 +40,16 @@ def read_opacity(source: Union[str, os.PathLike[str]]) -> npt.NDArray[np.float64
 
 
 class Points(NamedTuple):
-    """A list of points that was read."""
+    """A list of points read from a file."""
 
-    #: (N,3), as they stand in the file
+    #: (N,3), in the order of the file
     positions: npt.NDArray[np.float64]
-    #: of each; "": it has none
+    #: one per point; "" without a name
     names: tuple[str, ...]
 
 
 def read_points(path: Union[str, os.PathLike[str]]) -> Points:
-    """Points from a file, mm in LPS: lines `x y z` or `x y z name`, or 3D Slicer's .fcsv or .mrk.json."""
+    """Reads points, mm in LPS: lines `x y z` or `x y z name`, or 3D Slicer's .fcsv or .mrk.json."""
     points, position = guarded(made, "points", lib.vxt_read_points, encoded(path)), ffi.new("double[3]")
     positions: list[list[float]] = []
     names: list[str] = []

@@ -21,18 +21,18 @@ def _boxes(given: npt.ArrayLike, what: str) -> npt.NDArray[np.float64]:
 
 
 def overlapping_pairs(boxes: npt.ArrayLike, others: Optional[npt.ArrayLike] = None) -> npt.NDArray[np.uint32]:
-    """The broad phase: which boxes share a point, touching included.
+    """Finds the boxes that share a point (broad phase); touching counts.
 
     boxes, others
-        (N,2,3): the least and the greatest corner of each, as `Mesh.boxes_at` has them; one with a NaN, or whose
-        least corner is greater than the other, shares nothing
+        (N,2,3): minimum and maximum corner of each box, as from `Mesh.boxes_at`; a box with a NaN, or whose minimum
+        exceeds its maximum, shares nothing
 
-    (M,2), sorted: numbers of `boxes`, the first less than the second; or with `others` a number of each.
+    Returns (M,2), sorted: two indices into `boxes`, the first less than the second; with `others`, an index into each.
 
         near = vx.overlapping_pairs(knife.boxes_at(poses), [head.bounds])[:, 0]   # poses that may touch at all
     """
     left = _boxes(boxes, "boxes")
-    # Of others that are none the pointer is not null: it would stand for the boxes themselves.
+    # The pointer of an empty list is not null: null would stand for the boxes themselves.
     right = np.zeros((1, 2, 3)) if others is None else np.concatenate([_boxes(others, "others"), np.zeros((1, 2, 3))])
     pairs = guarded(made, "box_pairs", lib.vxt_overlapping_pairs, ffi.cast("vxt_box*", pointer("double", left)), len(left),
                     NULL if others is None else ffi.cast("vxt_box*", pointer("double", right)), len(right) - 1)

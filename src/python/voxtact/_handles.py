@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Volumes, label maps, meshes and devices of the library, as the package holds them. Sizes and boxes are x, y, z; arrays
-of voxels are z, y, x."""
+"""Volumes, label maps, meshes and devices of the library as Python objects. Sizes and boxes are x, y, z; arrays of
+voxels are z, y, x."""
 from __future__ import annotations
 
 import _thread
@@ -33,7 +33,7 @@ from ._library import (
 )
 from ._turns import guarded
 
-_TYPES = tuple(np.dtype(name) for name in (np.uint8, np.int16, np.uint16, np.float32))  # by vxt_scalar_type
+_TYPES = tuple(np.dtype(name) for name in (np.uint8, np.int16, np.uint16, np.float32))  # indexed by vxt_scalar_type
 METHODS: tuple[str, ...] = tuple(text_of(lib.vxt_method_name(number)) for number in range(lib.VXT_METHOD_CPU + 1))
 
 
@@ -42,7 +42,7 @@ def _decoded(text: bytes) -> str:
 
 
 class Volume:
-    """An image that does not change. `view` is a vxt_volume_view, whose memory `_owner` keeps."""
+    """An immutable image. `view` is a vxt_volume_view, whose memory `_owner` keeps."""
 
     __slots__ = ("view", "array", "name", "notes", "range", "_owner")
     array: npt.NDArray[Any]
@@ -79,7 +79,7 @@ class Volume:
     @classmethod
     def wrap(cls, array: npt.NDArray[Any], spacing: npt.NDArray[np.float64], origin: npt.NDArray[np.float64],
              direction: npt.NDArray[np.float64], name: bytes, notes: Sequence[bytes]) -> Volume:
-        """Of an array in C order, which is not copied."""
+        """Wraps an array in C order, without a copy."""
         grid = {"spacing": vector(spacing, "spacing"), "origin": vector(origin, "origin"), "size": list(reversed(array.shape)),
                 "direction": [float(number) for number in direction.T.reshape(-1)]}
         kept = pointer("char", array.reshape(-1).view(np.uint8))
@@ -109,7 +109,7 @@ class Volume:
         return copied(self.view.grid.direction, (3, 3)).T.copy()
 
     def shear(self) -> tuple[float, float]:
-        """Degrees, and how many a file may have."""
+        """Returns the shear, degrees, and the maximum for a file."""
         degrees = ffi.new("double[2]")
         check(lib.vxt_grid_shear(self.grid, degrees, degrees + 1))
         return degrees[0], degrees[1]
@@ -122,7 +122,7 @@ class Volume:
 
     @property
     def box(self) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-        """The least and the greatest corner of the world box around it."""
+        """Returns the minimum and maximum corner of the world bounding box."""
         space, box = ffi.new("double[16]"), ffi.new("vxt_box*", {"hi": [1, 1, 1]})
         check(lib.vxt_world_from_texture(self.grid, space))
         check(lib.vxt_transform_box(space, box, box))
@@ -166,7 +166,7 @@ class Labels:
 
 
 class Mesh:
-    """A mesh that does not change. `view` is a vxt_mesh_view."""
+    """An immutable mesh. `view` is a vxt_mesh_view."""
 
     __slots__ = ("view", "vertices", "faces", "name", "notes", "facts", "triangles", "_on_host", "_filled", "__weakref__")
 
@@ -204,7 +204,7 @@ class Mesh:
     @classmethod
     def make(cls, vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.uint32], name: bytes,
              notes: Sequence[bytes]) -> Mesh:
-        """Of copies of the arrays."""
+        """Creates a mesh from copies of the arrays."""
         mesh = cls(np.array(vertices, np.float64, order="C"), np.array(faces, np.uint32, order="C"), _decoded(name),
                    [_decoded(note) for note in notes])
         note = text_of(lib.vxt_mesh_note(mesh.facts))
@@ -222,13 +222,13 @@ class Mesh:
 
     @property
     def on_host(self) -> CData:
-        """The vxt_host_mesh, which is made when it is asked for."""
+        """The vxt_host_mesh, created on first access."""
         kept = self._on_host.get("mesh")
-        # Of two threads that make one, both use the first.
+        # If two threads create one, both use the first.
         return kept or self._on_host.setdefault("mesh", guarded(made, "host_mesh", lib.vxt_host_mesh_create, self.view))
 
     def filled(self) -> tuple[Mesh, float]:
-        """Itself with its holes filled, and the area added; triangles keep their numbers."""
+        """Returns the mesh with its holes filled, and the area added; triangles keep their indices."""
         kept = self._filled.get("mesh")
         if kept is None:
             area = ffi.new("double*")
@@ -243,7 +243,7 @@ class Mesh:
         return kept
 
     def boxes_at(self, columns: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-        """(N,2,3): of poses column by column."""
+        """(N,2,3): world boxes at poses in column-major order."""
         boxes = np.empty((len(columns), 2, 3))
         check(lib.vxt_boxes_at(pointer("double", columns), len(columns), ffi.addressof(self.facts, "bounds"),
                                ffi.cast("vxt_box*", pointer("double", boxes))))
@@ -259,13 +259,13 @@ _Facts = tuple[int, str, str, str, str]
 
 
 def _facts_of(facts: CData) -> _Facts:
-    version = facts.api_version  # as VK_MAKE_API_VERSION packs it
+    version = facts.api_version  # layout of VK_MAKE_API_VERSION
     return (facts.index, text_of(facts.name), text_of(facts.type), text_of(facts.driver),
             f"{version >> 22 & 0x7f}.{version >> 12 & 0x3ff}.{version & 0xfff}")
 
 
 class Device:
-    """A device of the library's own."""
+    """A device that the library owns."""
 
     __slots__ = ("handle", "facts", "_submitting")
 
@@ -291,12 +291,12 @@ class Device:
     def open(cls, wanted: bytes) -> Device:
         try:
             return cls(guarded(made_with, (), "device", lib.vxt_device_open, wanted))
-        except InvalidArgumentError as error:  # about the argument of that name
+        except InvalidArgumentError as error:  # the error names this argument
             raise InvalidArgumentError(str(error).replace("device '", "device='", 1)) from None
 
     @property
     def queue(self) -> CData:
-        """The vxt_queue; refuses a child of the process that opened the device."""
+        """Returns the vxt_queue; refuses a child of the process that opened the device."""
         queue = struct("queue")
         check(lib.vxt_device_queue(self.handle, queue))
         return queue
@@ -305,11 +305,11 @@ class Device:
     def context(self) -> CData:
         context = lib.vxt_device_context(self.handle)
         if context == NULL:
-            _ = self.queue  # says why
+            _ = self.queue  # the error states the reason
         return context
 
     def make(self, kind: str, create: Callable[..., int], *arguments: Any) -> CData:
-        """An object on the device, which outlives it."""
+        """Creates an object on the device, which outlives it."""
         return made_with((self.handle,), kind, create, *arguments)
 
     def submit(self, record: Callable[..., int], *arguments: Any) -> None:

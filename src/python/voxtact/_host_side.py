@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a scene has on the host: the volume as edited, its opacity, and the engine with its threads."""
+"""The host part of a scene: the edited volume, its opacity, and the engine with its threads."""
 from __future__ import annotations
 
 from typing import Any, Optional
@@ -13,8 +13,8 @@ from ._library import NULL, CData, check, failure, ffi, forks, lib, made, made_w
 from ._request import Opacity, Question, Request, TouchQuestion
 from ._turns import interruptibly
 
-#: Where a yes or no is asked about so few, a thread of its own takes longer than the answer. Of a count nothing can be
-#: said: one triangle may have all the fragments that there are.
+#: Below this number of triangle tests, starting a thread takes longer than a touch query. Counts always start one: one
+#: triangle may have all the fragments.
 FEW_TRIANGLES = 2**14
 
 _ask_touch, _find, _from_buffer, _cast = lib.vxt_ask_touch, lib.vxt_answer_find, ffi.from_buffer, ffi.cast
@@ -22,7 +22,7 @@ _DOUBLES, _DOUBLE, _UINT = ffi.typeof("double[]"), ffi.typeof("double*"), ffi.ty
 
 
 def check_on_host(question: Question) -> None:
-    """Refuses what devices alone have."""
+    """Refuses options that only devices have."""
     if question.method is not None and question.method != lib.VXT_METHOD_CPU:
         raise UnsupportedError(f"the method {METHODS[question.method]} needs a Vulkan device; make the scene with device=")
     if question.filter not in (None, lib.VXT_FILTER_EXACT) or question.overestimate:
@@ -33,7 +33,7 @@ def check_on_host(question: Question) -> None:
 
 
 class HostSide:
-    """`cancel` ends its calls."""
+    """The host part of a scene. `cancel` ends its calls."""
 
     def __init__(self, volume: Volume, opacity: Opacity, threads: int, labels: Optional[Labels], cancel: CData) -> None:
         self._given = volume
@@ -45,7 +45,7 @@ class HostSide:
         self._born = -1
         self._pairs = struct("pairs", cancel=cancel)
         self._alone = ffi.new("vxt_host_item[1]", [{"volume": self.volume, "labels": self.labels}])
-        # Of a yes or no about one pose, each made once.
+        # Reused for each touch query of one pose.
         self._single = ffi.new("vxt_host_item*", {"volume": self.volume, "pose_count": 1})
         self._single_mesh: Optional[Mesh] = None
         self._single_pairs = struct("pairs", items=self._single, item_count=1, cancel=cancel)
@@ -59,7 +59,7 @@ class HostSide:
 
     @property
     def engine(self) -> CData:
-        """That of this process: a child of a fork has none of the threads."""
+        """The engine of this process: a forked child has no threads of its parent."""
         if self._born != forks():
             self._engine = made_with((), "host_engine", lib.vxt_host_engine_create, self._wanted_threads)
             self._born = forks()
@@ -79,14 +79,14 @@ class HostSide:
         check(lib.vxt_host_volume_write(self.volume, box, pointer("char", voxels.reshape(-1).view(np.uint8)), voxels.nbytes))
 
     def voxels(self) -> npt.NDArray[Any]:
-        """As they are now."""
+        """The current voxels."""
         now = np.empty_like(self._given.array)
         box = ffi.new("vxt_voxel_box*", {"size": self._given.size})
         check(lib.vxt_host_volume_read(self.volume, box, pointer("char", now.reshape(-1).view(np.uint8)), now.nbytes))
         return now
 
     def item(self, mesh: Mesh, poses: CData, count: int) -> CData:
-        """The item for one mesh, which is used again by the next call."""
+        """Returns the item for one mesh; the next call reuses it."""
         item = self._alone[0]
         item.mesh = mesh.on_host
         item.world_from_object = poses
@@ -107,7 +107,7 @@ class HostSide:
 
     def ask(self, ask: Any, question: CData, parts: list[tuple[Mesh, CData, int]], threshold: float, view: CData = NULL,
             few: bool = False) -> CData:
-        """The answer of vxt_ask_...() for parts of a request."""
+        """Returns the answer of vxt_ask_...() for parts of a request."""
         self._fill(parts)
         pairs = self._pairs
         pairs.opacity_threshold = threshold or -0.0
@@ -130,7 +130,7 @@ class HostSide:
         return self.ask(lib.vxt_ask_touch, question.touch, list(request.part(first, count)), threshold, NULL, few)
 
     def touch(self, question: CData, mesh: Mesh, place: bytes, threshold: float) -> tuple[int, float]:
-        """The verdict about one pose, and what it took, ms."""
+        """Returns the verdict for one pose, and its duration, ms."""
         single = self._single
         if self._single_mesh is not mesh:
             single.mesh = mesh.on_host
@@ -148,9 +148,9 @@ class HostSide:
         return _cast(_UINT, touch.data)[0], _cast(_DOUBLE, took.data)[0]
 
     def plan(self, wish: dict[str, Any], avoided: Optional[Volume], opaque: Optional[Opacity], threshold: float) -> CData:
-        """wish: members of vxt_plan by their names in C, and `avoid`."""
+        """Answers a plan. wish: members of vxt_plan by their names in C, and `avoid`."""
         obstacles: list[dict[str, Any]] = []
-        kept: list[Any] = []  # what the structs point to
+        kept: list[Any] = []  # keeps the memory that the structs reference
         some = threshold or -0.0
 
         def text(name: str) -> CData:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Label maps, and what labels are called."""
+"""Label maps and label names."""
 from __future__ import annotations
 
 import difflib
@@ -18,13 +18,13 @@ from ._volume import Volume, read_volume
 
 
 class Labels:
-    """A label map: which structure each voxel belongs to. `read_labels` makes one."""
+    """A label map: the structure of each voxel. `read_labels` creates one."""
 
     __slots__ = ("_core", "volume", "names")
     _core: core.Labels
-    #: What it was made of.
+    #: The image of the label map.
     volume: Volume
-    #: What the labels are called, where that is known.
+    #: The label names, if known.
     names: dict[int, str]
 
     def __init__(self, volume: Volume, names: Optional[dict[int, str]] = None) -> None:
@@ -35,21 +35,20 @@ class Labels:
 
     @property
     def values(self) -> npt.NDArray[np.int32]:
-        """The labels that there are, ascending; 0 is always among them."""
+        """The labels, ascending; includes 0."""
         return self._core.values
 
     def at(self, points: npt.ArrayLike) -> npt.NDArray[np.int32]:
-        """The labels of world points (N,3), LPS, mm: (N,). Of the nearest voxel; 0 outside."""
+        """Returns the labels (N,) at world points (N,3), LPS, mm: those of the nearest voxels; 0 outside."""
         return self._core.at(numbers(points, "points"))
 
     def along(self, start: npt.ArrayLike, end: npt.ArrayLike) -> npt.NDArray[np.int32]:
-        """The labels that the straight line from one world point (3,) to another crosses, LPS, mm: in that order, each
-        once, without 0. Those that it only grazes may be missing.
-        """
+        """Returns the labels on the straight line from one world point (3,) to another, LPS, mm: in that order, each
+        once, without 0. Labels that it only grazes may be missing."""
         return self._core.along(numbers(start, "start"), numbers(end, "end"))
 
     def number(self, label: Union[int, str]) -> int:
-        """The number of a label that is given by its number or its name."""
+        """Returns the value of a label, given by value or name."""
         return self._number(label, "a label")
 
     def _number(self, label: Union[int, str], what: str) -> int:
@@ -78,10 +77,10 @@ class Labels:
 
 
 def read_label_names(path: Union[str, os.PathLike[str]]) -> dict[int, str]:
-    """What labels are called: lines `number name`, as lie beside MRIcron's label maps; FreeSurfer's colour tables.
+    """Reads label names: lines `number name`, such as MRIcron's; FreeSurfer's colour tables.
 
-    In names that are not UTF-8 the bytes that are none are surrogate escapes, as in Python's names of files. Those of a
-    file in Latin-1 are ``name.encode("utf-8", "surrogateescape").decode("latin-1")``.
+    Bytes in names that are not UTF-8 become surrogate escapes, as in Python's file names. Decode names of a file in
+    Latin-1 by ``name.encode("utf-8", "surrogateescape").decode("latin-1")``.
     """
     found, label = made("label_names", lib.vxt_read_label_names, encoded(path)), ffi.new("int32_t*")
     names: dict[int, str] = {}
@@ -102,12 +101,12 @@ def _checked(names: Optional[dict[int, str]]) -> Optional[dict[int, str]]:
 
 def read_labels(source: Any, *, names: Union[None, dict[int, str], str, os.PathLike[str]] = None,
                 **options: Any) -> Labels:
-    """A label map: whatever `read_volume` reads, with whole numbers, on a grid of its own.
+    """Reads a label map: an image of whole numbers that `read_volume` reads, on its own grid.
 
-    names: what the labels are called, as a dict or a file (see `read_label_names`).
+    names: the label names, as a dict or a file (see `read_label_names`).
     """
     known = _checked(names) if names is None or isinstance(names, dict) else read_label_names(names)
     if isinstance(source, Labels):
-        read_volume(source.volume, **options)  # which has nothing to say to it
+        read_volume(source.volume, **options)  # the library does not use them
         return source if known is None else Labels(source.volume, known)
     return Labels(read_volume(source, **options), known)

@@ -13,14 +13,14 @@ import numpy.typing as npt
 from ._cdef import ffi as _ffi
 from ._errors import Error, InvalidArgumentError, exception
 
-#: An object of cffi, which has no types.
+#: A cffi object; cffi has no types.
 CData = Any
 ffi: Any = _ffi
 
 
 def _load() -> Any:
-    """Loads the library beside this file, or the one that VOXTACT_LIBRARY names; it stays loaded to the end of the
-    process, because objects may outlive modules."""
+    """Loads the library beside this file, or the one in VOXTACT_LIBRARY; it stays loaded until the process ends,
+    because objects may outlive modules."""
     place = os.environ.get("VOXTACT_LIBRARY") or os.path.join(os.path.dirname(__file__), "libvoxtact.so")
     try:
         return ffi.dlopen(place, ffi.RTLD_NOW | ffi.RTLD_LOCAL | getattr(ffi, "RTLD_NODELETE", 0))
@@ -36,12 +36,12 @@ NULL: CData = ffi.NULL
 
 
 def failure(result: int) -> Error:
-    """The exception of a vxt_result, with the calling thread's last error."""
+    """Creates the exception of a vxt_result, with the calling thread's last error."""
     return exception(result, text_of(lib.vxt_last_error(NULL)), int(lib.vxt_last_vk_result(NULL)))
 
 
 def check(result: int) -> None:
-    """Raises what a call of the library has refused."""
+    """Raises the error of a failed library call."""
     if result:
         raise failure(result)
 
@@ -54,13 +54,13 @@ def refuse(text: str) -> NoReturn:
 
 
 def text_of(chars: CData) -> str:
-    """Bytes that are not UTF-8 become surrogate escapes, as in Python's names of files."""
+    """Decodes text; bytes that are not UTF-8 become surrogate escapes, as in Python's file names."""
     made: str = ffi.string(chars).decode("utf-8", "surrogateescape")
     return made
 
 
 def texts_of(get: Callable[[int], CData]) -> list[str]:
-    """Those that a function gives by their numbers, up to a null."""
+    """Returns the texts that a function returns by index, up to a null."""
     texts: list[str] = []
     while chars := get(len(texts)):
         texts.append(text_of(chars))
@@ -68,14 +68,14 @@ def texts_of(get: Callable[[int], CData]) -> list[str]:
 
 
 def struct(kind: str, **members: Any) -> CData:
-    """A new struct that begins with struct_size."""
+    """Creates a struct that begins with struct_size."""
     made = ffi.new(f"vxt_{kind}*", members)
     made.struct_size = ffi.sizeof(f"vxt_{kind}")
     return made
 
 
 def structs(kind: str, count: int) -> CData:
-    """An array of zeros, each with its struct_size."""
+    """Creates an array of zeros, each with its struct_size."""
     made = ffi.new(f"vxt_{kind}[]", count)
     for one in made:
         one.struct_size = ffi.sizeof(f"vxt_{kind}")
@@ -84,10 +84,10 @@ def structs(kind: str, count: int) -> CData:
 
 # Objects
 
-#: how often this process is the child of a fork since the library was loaded
+#: number of forks between this process and the one that loaded the library
 _forks = 0
-#: What has threads or is on a device, by its address: how it ends, and what it was made with. A child of a fork does not
-#: know what is its parent's, and does not end it: it would wait for threads that are not there.
+#: How to destroy each object with threads or on a device, by its address, and its parents. A forked child does not
+#: destroy its parent's objects: it would wait for missing threads.
 _bound: dict[int, tuple[Callable[[CData], None], CData, tuple[int, ...]]] = {}
 _uses: dict[int, int] = {}
 _waiting: set[int] = set()
@@ -108,7 +108,7 @@ def _after_fork() -> None:
 
 
 def leak() -> None:
-    """From now on nothing bound is ended: the process ends, and modules and garbage go in any order."""
+    """Stops destroying objects: at the end of the process, modules and garbage go in any order."""
     global _leaks
     _leaks = True
     _bound.clear()
@@ -122,7 +122,7 @@ def _address(handle: CData) -> int:
 
 
 def _end(address: int) -> None:
-    """Ends an object, or lets it wait for those that were made with it: garbage goes in any order."""
+    """Destroys an object, or defers it until its dependent objects are destroyed: garbage goes in any order."""
     if address not in _bound:
         return
     if _uses.get(address):
@@ -143,14 +143,14 @@ def _end_of(handle: CData) -> None:
 
 
 def made(kind: str, create: Callable[..., int], *arguments: Any) -> CData:
-    """An object that is destroyed with the last reference to it. `create` puts a vxt_KIND* into its last argument."""
+    """Creates an object that is destroyed with its last reference. `create` writes a vxt_KIND* to its last argument."""
     place = ffi.new(f"vxt_{kind}**")
     check(create(*arguments, place))
     return ffi.gc(place[0], getattr(lib, f"vxt_{kind}_destroy"))
 
 
 def made_with(parents: tuple[CData, ...], kind: str, create: Callable[..., int], *arguments: Any) -> CData:
-    """The same of what has threads or is on a device; its parents are destroyed later."""
+    """Like `made`, for objects with threads or on a device; their parents are destroyed later."""
     place = ffi.new(f"vxt_{kind}**")
     check(create(*arguments, place))
     handle = place[0]
@@ -169,7 +169,7 @@ def made_with(parents: tuple[CData, ...], kind: str, create: Callable[..., int],
 
 
 def shown(data: CData, shape: tuple[int, ...], dtype: npt.DTypeLike, owner: Any) -> npt.NDArray[Any]:
-    """An array over memory of the library, which keeps the memory's owner."""
+    """Returns an array over memory of the library; it keeps the memory's owner."""
     kind = np.dtype(dtype)
     size = kind.itemsize
     for length in shape:
@@ -181,7 +181,7 @@ def shown(data: CData, shape: tuple[int, ...], dtype: npt.DTypeLike, owner: Any)
 
 
 def copied(data: CData, shape: tuple[int, ...], dtype: npt.DTypeLike = np.float64) -> npt.NDArray[Any]:
-    """A copy of memory of the library."""
+    """Returns a copy of memory of the library."""
     made = np.empty(shape, dtype)
     if made.size:
         ffi.memmove(ffi.from_buffer(made), data, made.nbytes)
@@ -194,12 +194,12 @@ def read_only(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
 
 
 def pointer(kind: str, array: npt.NDArray[Any]) -> CData:
-    """The elements of a contiguous array, which the pointer keeps."""
+    """Returns a pointer to the elements of a contiguous array; the pointer keeps the array."""
     return ffi.from_buffer(f"{kind}[]", array)
 
 
 def doubles(array: npt.ArrayLike) -> npt.NDArray[np.float64]:
-    """Contiguous, and not copied where they are."""
+    """Returns a contiguous array of doubles, without a copy if possible."""
     return np.ascontiguousarray(array, dtype=np.float64)
 
 
@@ -208,21 +208,21 @@ def shape_text(array: npt.NDArray[Any]) -> str:
 
 
 def vector(array: npt.NDArray[np.float64], what: str) -> list[float]:
-    """Three numbers."""
+    """Returns three numbers."""
     if array.shape != (3,):
         refuse(f"{what} has the shape {shape_text(array)}; (3,) is needed")
     return [float(number) for number in array]
 
 
 def matrix(array: npt.NDArray[np.float64], what: str) -> list[float]:
-    """A matrix of (4,4) as the library takes it, column by column."""
+    """Returns a (4,4) matrix in column-major order."""
     if array.shape != (4, 4):
         refuse(f"{what} has the shape {shape_text(array)}; (4,4) is needed")
     return [float(number) for number in array.T.reshape(-1)]
 
 
 def matrix_of(columns: CData) -> npt.NDArray[np.float64]:
-    """The matrix of 16 doubles of the library."""
+    """Returns the (4,4) matrix of 16 doubles of the library."""
     return copied(columns, (4, 4)).T.copy()
 
 
@@ -231,7 +231,7 @@ def matrices_of(columns: CData, count: int) -> npt.NDArray[np.float64]:
 
 
 def named(word: Any, what: str, names: tuple[str, ...]) -> int:
-    """The place of a name among those that there are."""
+    """Returns the index of a name in a list."""
     if not isinstance(word, str):
         raise TypeError(f"{what} cannot be {word!r}")
     if word not in names:
@@ -243,7 +243,7 @@ def named(word: Any, what: str, names: tuple[str, ...]) -> int:
 
 
 class Fact:
-    """A number that a question takes: its default, and what else it may be."""
+    """Default, range and unit of a number."""
 
     __slots__ = ("question", "name", "unit", "text", "range", "standard")
 
@@ -259,14 +259,14 @@ FACTS: dict[tuple[str, str], Fact] = {(fact.question, fact.name): fact for fact 
 
 
 def standard(question: str, name: str) -> float:
-    """The default of a number."""
+    """Returns the default of a number."""
     number = FACTS[question, name].standard
     assert number is not None
     return number
 
 
 def not_zero(number: float, question: str, name: str) -> float:
-    """Refuses the 0 that stands for the default in the library, in its words."""
+    """Refuses 0, which selects the default in the library, with the library's text."""
     if number == 0:
         fact = FACTS[question, name]
         refuse(f"the {name.replace('_', ' ')} 0{' ' * bool(fact.unit)}{fact.unit} is not a number {fact.range}")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Questions of scenes that the host engine alone answers: distance, area, overlap, motion."""
+"""Questions that only the host engine answers: distance, area, overlap, motion."""
 from __future__ import annotations
 
 import warnings
@@ -19,15 +19,15 @@ from ._motion import Interpolation, Motion
 from ._track import Tracker
 from ._volume import Volume
 
-#: of the touch, voxels
+#: voxels: resolution of the touch
 RESOLUTION = 1 / 64
 INFINITE = float("inf")
-#: labels that a warning lists
+#: maximum number of labels in a warning
 _MAX_NAMED = 10
 
 
 def _filled(meshes: Any) -> Any:
-    """The meshes with their holes filled, as `asked` returned them; warns of the area added."""
+    """Returns the meshes with their holes filled; warns about the added area."""
     single = isinstance(meshes, core.Mesh)
     closed: list[Any] = []
     for mesh, poses in [(meshes, None)] if single else meshes:
@@ -39,7 +39,7 @@ def _filled(meshes: Any) -> Any:
 
 
 class Measuring:
-    """A scene's questions about distances, areas and motions."""
+    """Questions of a scene about distances, areas, overlaps and motions."""
 
     __slots__ = ()
     _core: core.Scene
@@ -61,7 +61,7 @@ class Measuring:
             The scene's label map must be on its volume's grid. The distance to a label without voxels is infinite; a
             warning says so
         any_opacity
-            measures to all of each label, opaque or not
+            measures to the whole label, opaque or not
         max_steps
             iteration limit per pose
 
@@ -112,8 +112,8 @@ class Measuring:
         tolerance
             mm^3, from 1e-9 on: stops when upper - lower is at most this; None: the default
         bands
-            ascending values, at most 64: measures the volume of the values below the first, between each two, and
-            from the last on, opaque or not: a column for each of these bands
+            ascending values, at most 64: measures the volume of each band: values below the first limit, between two
+            limits, and from the last limit on, opaque or not: a column for each band
         labels
             measures the opaque part of each of these labels, by number or name (True: all but 0): a column for each. The
             scene's label map must be on its volume's grid
@@ -143,10 +143,10 @@ class Measuring:
 
     def tracker(self, mesh: Mesh, *, max: float = INFINITE, resolution: float = RESOLUTION,
                 max_steps: int = core.DEFAULT_TRACKER_STEPS) -> Tracker:
-        """Makes a `Tracker` of a mesh that moves in small steps, as by hand.
+        """Creates a `Tracker` for a mesh that moves in small steps, as in haptics.
 
         max
-            mm: maximum distance of a search
+            mm: search radius
         resolution
             voxels, as in `touch`
         max_steps
@@ -164,19 +164,19 @@ class Measuring:
                max_steps: int = core.DEFAULT_MOTION_STEPS, progress: Progress = None) -> Motion:
         """Checks the motion from each pose to the next, and finds the first touch: a `Motion`.
 
-        Continuous collision detection, without samples: collision-free holds at all poses of a segment.
+        Continuous collision detection, without sampling: a collision-free segment is free at all of its poses.
 
         mesh, poses
             a mesh at poses, (N,4,4), N at least 2; or a list of (mesh, poses) alone
         interpolation
-            "screw": about and along one axis. "slerp": the middle of the mesh's box goes straight, and the mesh turns
-            about it. Both by no more than half a turn, at constant speed; near half a turn rounding may decide which way round
+            "screw": along and about one axis. "slerp": the centre of the mesh's box moves straight, and the mesh rotates
+            about it. Both by at most half a turn, at constant speed; near half a turn rounding may choose the side
         resolution
             mm, from 1e-6 on: maximum motion of the mesh from `toi_lower` to `toi_upper`
         max_steps
             iteration limit per segment
         progress
-            is told of segments
+            receives (segments done, all)
 
         The host engine checks, also for scenes on a device.
         """

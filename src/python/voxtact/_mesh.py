@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Meshes: from files, from arrays, and from those of other libraries."""
+"""Meshes: from files, arrays, and other libraries."""
 from __future__ import annotations
 
 import os
@@ -15,11 +15,11 @@ from ._request import check_affine, columns_of
 
 
 class Mesh:
-    """A triangle mesh in its own coordinates, mm. `read_mesh` makes one. It does not change."""
+    """An immutable triangle mesh in its own coordinates, mm. `read_mesh` creates one."""
 
     __slots__ = ("_core", "_assumed")
     _core: core.Mesh
-    _assumed: bool  # that the vertices are in LPS: nobody has said so
+    _assumed: bool  # True: the vertices are in LPS by default, not by a statement
 
     def __init__(self) -> None:
         raise TypeError("voxtact.read_mesh() makes meshes: from a file, (vertices, faces), or a mesh object")
@@ -38,33 +38,34 @@ class Mesh:
 
     @property
     def faces(self) -> npt.NDArray[np.uint32]:
-        """(T,3): numbers of vertices, read-only. Answers number the triangles by their rows here."""
+        """(T,3): vertex indices, read-only. Answers number triangles by row."""
         return self._core.faces
 
     @property
     def bounds(self) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-        """The least and the greatest corner, mm."""
+        """Minimum and maximum corner, mm."""
         return self._core.bounds
 
     def boxes_at(self, poses: npt.ArrayLike) -> npt.NDArray[np.float64]:
-        """(N,2,3): the least and the greatest corner of the world box around it at poses (N,4,4) or (4,4)."""
+        """Returns the world bounding boxes at poses (N,4,4) or (4,4): (N,2,3), minimum and maximum corners."""
         columns = columns_of(numbers(poses, "poses"))
         check_affine(columns)
         return self._core.boxes_at(columns)
 
     @property
     def degenerate(self) -> int:
-        """Triangles without an area: allowed. Projections to a view never see them; the certified answers do."""
+        """Number of triangles without an area: allowed. Projections to a view never cover them; certified answers
+        include them."""
         return self._core.degenerate
 
     @property
     def name(self) -> str:
-        """The file's name, or what the arrays came from."""
+        """Name of the file or source."""
         return self._core.name
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What was done on the way that you may want to know."""
+        """Notes of the reader: conversions and assumptions."""
         return tuple(self._core.notes)
 
     def write(self, path: Union[str, os.PathLike[str]]) -> None:
@@ -81,7 +82,7 @@ class Mesh:
 
 
 def _mesh_again(vertices: npt.NDArray[Any], faces: npt.NDArray[Any], name: str, notes: tuple[str, ...]) -> Mesh:
-    """What pickle calls."""
+    """Restores a mesh from a pickle."""
     return Mesh._of(core.Mesh.make(vertices, faces, encoded_text(name, "name"),
                                    [encoded_text(note, "a note") for note in notes]))
 
@@ -115,11 +116,11 @@ def _mesh_of_arrays(vertices: Any, faces: Any, space: Space, scale: float, name:
 
 
 def _of_quads(corners: npt.NDArray[Any], points: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    """Two triangles of each quad, cut along the diagonal that is inside. What is not flat is cut as its shadow along
-    the axis that sees it largest."""
+    """Splits each quad into two triangles, along the diagonal that is inside. Splits a non-planar quad by its largest
+    axis-aligned projection."""
     sane = corners.dtype.kind in "iu" and points.dtype.kind in "fiu" and points.shape[1:] == (3,)
     if not sane or not corners.size or corners.min() < 0 or corners.max() >= len(points):
-        return corners[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)  # refused with all the others
+        return corners[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)  # refused with all others
     with np.errstate(invalid="ignore", over="ignore"):
         seen = points[corners].astype(np.float64)
         seen -= seen[:, :1]
@@ -134,7 +135,7 @@ def _of_quads(corners: npt.NDArray[Any], points: npt.NDArray[Any]) -> npt.NDArra
             return np.asarray(np.sign(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]))
 
         first, second = turn(0, 1, 2) * turn(0, 2, 3), turn(1, 2, 3) * turn(1, 3, 0)
-        # A quad that encloses nothing is a line, or has two halves that turn against each other.
+        # A quad without area is a line, or has two halves of opposite orientation.
         sides = np.stack([np.cross(seen[:, a], seen[:, b]) for a, b in ((1, 2), (1, 3), (2, 3))], axis=1)
         empty = (normal.max(axis=1) <= 1e-12) & (np.abs(sides).max(axis=(1, 2)) > 1e-12)
     other = first < 0
@@ -193,19 +194,19 @@ def _of_vtk_mesh(mesh: Any, space: Space, scale: float) -> Mesh:
 
 
 def read_mesh(source: Any, *, space: Optional[Space] = None, scale: float = 1.0) -> Mesh:
-    """A mesh from a file, from arrays, or from a mesh of another library.
+    """Reads a mesh from a file, from arrays, or from a mesh of another library.
 
     source
         - a path: STL, OBJ, PLY, OFF, glTF or GLB; ``"builtin:scalpel"`` and the other names of the program's builtins
         - ``(vertices, faces)``: (V,3) numbers and (T,3) whole numbers
         - a trimesh (`.vertices`, `.faces`), a meshio mesh (triangles and quads), or a vtkPolyData
 
-    space: of the vertices, "lps" unless it is said. "ras" negates x and y; what comes out is always LPS. An array with
-    `affine` is "ras" unless it is said: where both meet in a scene and neither was said, a warning asks for it.
-    scale: millimetres in a unit of the vertices; 1000 for metres.
+    space: of the vertices, default "lps". "ras" negates x and y; the mesh is always LPS. A volume from an array with
+    `affine` is "ras" by default: if a scene combines both defaults, a warning asks for `space`.
+    scale: millimetres per unit of the vertices; 1000 for metres.
 
-    Vertices are float64; where single precision loses more than 0.0001 of them, `Mesh.notes` says so. Raises FileError, FormatError, and
-    InvalidArgumentError, which names the vertex or face.
+    Vertices are float64; `Mesh.notes` reports a loss above 0.0001 by single precision. Raises FileError, FormatError,
+    and InvalidArgumentError, which names the vertex or face.
     """
     scale = number(scale, "scale")
     assumed = space is None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Motions between poses, and answers about them."""
+"""Motions between poses, and their answers."""
 from __future__ import annotations
 
 from typing import Any, Literal, NoReturn, Optional
@@ -14,7 +14,7 @@ from ._handles import Labels
 from ._mesh import Mesh
 from ._tables import UNDECIDED, YES, Tables
 
-#: "screw": about and along one axis. "slerp": the middle of the mesh's box goes straight, and the mesh turns about it.
+#: "screw": along and about one axis. "slerp": the centre of the mesh's box moves straight; the mesh rotates about it.
 Interpolation = Literal["screw", "slerp"]
 
 _ENDS = np.array(["decided", "grazes", "budget"])
@@ -24,14 +24,14 @@ _TOUCH = np.dtype([("at", np.float64), ("triangle", np.int64), ("position", np.f
 
 def pose_between(first: npt.ArrayLike, second: npt.ArrayLike, at: npt.ArrayLike, *,
                  interpolation: Interpolation = "screw", mesh: Optional[Mesh] = None) -> npt.NDArray[np.float64]:
-    """The pose at a parameter from 0 (the first pose) to 1 (the second) of the motion that `Scene.motion` checks.
+    """Returns the pose at a parameter from 0 (the first pose) to 1 (the second) of the motion that `Scene.motion` checks.
 
     at
-        a number, for a (4,4); or (T,), for (T,4,4)
+        a number, which returns (4,4); or (T,), which returns (T,4,4)
     mesh
-        what moves: "slerp" needs the middle of its box
+        the moving mesh: "slerp" needs the centre of its box
 
-    Refuses parameters outside of 0 to 1, and two poses that no rigid motion joins: another scale, a mirror image.
+    Refuses parameters outside 0 to 1, and two poses without a rigid motion between them: another scale, a mirror image.
     """
     parameters = numbers(at, "at")
     if parameters.ndim > 1:
@@ -52,7 +52,7 @@ def pose_between(first: npt.ArrayLike, second: npt.ArrayLike, at: npt.ArrayLike,
 class Motion:
     """The answer of `Scene.motion`: a row for each segment from one pose to the next, in order.
 
-    A mesh of N poses has N - 1 of them. Of each the pose at a parameter from 0 to 1 is `pose_between`.
+    A mesh with N poses has N - 1 segments. `pose_between` returns the pose at a parameter from 0 to 1.
     """
 
     __slots__ = ("_tables", "_labels", "_impacts")
@@ -73,24 +73,24 @@ class Motion:
 
     @property
     def undecided(self) -> npt.NDArray[np.bool_]:
-        """(S,): undecided. Neither `touches` nor `undecided`: the segment is collision-free."""
+        """(S,): undecided. Neither `touches` nor `undecided`: collision-free."""
         return self._tables.touch_is(UNDECIDED)
 
     @property
     def toi_lower(self) -> npt.NDArray[np.float64]:
-        """(S,): collision-free from 0 to this parameter; 1: all the way."""
+        """(S,): collision-free from 0 to this parameter; 1: the whole segment."""
         return np.asarray(self._tables.rows("segments")["toi_lower"])
 
     @property
     def toi_upper(self) -> npt.NDArray[np.float64]:
-        """(S,): certainly touching at this parameter, the earliest that was found; NaN: none."""
+        """(S,): certainly touching at this parameter, the earliest found; NaN: none."""
         return np.asarray(self._tables.rows("segments")["toi_upper"])
 
     @property
     def impacts(self) -> npt.NDArray[np.void]:
         """(S,): the touch at `toi_upper`. Without one `triangle` is -1, `label` 0 and the rest NaN.
 
-        `at`, the parameter; `triangle`, its number in the mesh; `position` (3), LPS, mm, on the triangle and opaque;
+        `at`, the parameter; `triangle`, its index in the mesh; `position` (3), LPS, mm, on the triangle and opaque;
         `label` there, 0 without a label map; `world_from_object` (4,4), the pose.
         """
         if self._impacts is None:
@@ -118,12 +118,12 @@ class Motion:
 
     @property
     def item(self) -> npt.NDArray[np.uint32]:
-        """(S,): the number of the mesh in the list that was given; 0 for a single one."""
+        """(S,): index of the mesh in the given list; 0 for a single mesh."""
         return self._tables.item()
 
     @property
     def pose(self) -> npt.NDArray[np.uint32]:
-        """(S,): the number, among those of its mesh, of the pose that the segment begins with."""
+        """(S,): index, among those of its mesh, of the segment's first pose."""
         return self._tables.pose()
 
     @property

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What pictures are asked for, and how they look."""
+"""Options and appearance of pictures."""
 from __future__ import annotations
 
 import os
@@ -23,12 +23,12 @@ from ._wish import look_names
 Colour = tuple[float, float, float]
 Show = Literal["contacts", "discarded", "triangles", "plain"]
 Light = Literal["soft", "eye", "none"]
-#: What takes a side of the volume away: see `Scene.picture`.
+#: A clipping plane: see `Scene.picture`.
 Clip = Union[str, tuple[str, float], tuple[float, float, float, float]]
 
 
 class Look(NamedTuple):
-    """Opacity and colours of a kind of image. `look` makes one."""
+    """Opacity and colours for a kind of image. `look` creates one."""
 
     #: (N,2): value and opacity, for `Scene`
     opacity: npt.NDArray[np.float64]
@@ -37,12 +37,12 @@ class Look(NamedTuple):
 
 
 def looks() -> tuple[str, ...]:
-    """The names of the looks that there are: "mr", "ct-bone", …"""
+    """Returns the names of all looks: "mr", "ct-bone", …"""
     return tuple(look_names())
 
 
 def look(name: str, volume: Volume) -> Look:
-    """The look of that name, in the volume's own units: those of "mr" are of its range, those of "ct" Hounsfield units.
+    """Returns a look in the volume's own units: "mr" looks scale with its range of values, "ct" looks use Hounsfield units.
 
         mr = vx.look("mr", head)
         vx.Scene(head, opacity=mr.opacity).picture(colours=mr.colours)
@@ -53,7 +53,8 @@ def look(name: str, volume: Volume) -> Look:
 
 
 def read_colours(path: Union[str, os.PathLike[str]]) -> npt.NDArray[np.float64]:
-    """The colours of a transfer function in JSON (docs/cli.md): (N,4), value, red, green and blue; (0,4): it has none."""
+    """Reads the colours of a transfer function in JSON (docs/cli.md): (N,4), value, red, green and blue; (0,4) without
+    colours."""
     return points_of(lib.vxt_colour_points_get, made("colour_points", lib.vxt_read_colours, encoded(path)), 4)
 
 
@@ -65,14 +66,14 @@ def _colour(given: Any, what: str) -> tuple[float, ...]:
 
 
 def view_options(given: Any) -> Any:
-    """A name, (azimuth, elevation), or a matrix."""
+    """Parses a name, (azimuth, elevation), or a matrix."""
     if isinstance(given, tuple) and len(given) == 2:
         return number(given[0], "view"), number(given[1], "view")
     return given if isinstance(given, str) else numbers(given, "view")
 
 
 def _clip(given: Any) -> tuple[Any, ...]:
-    """(side, mm or None), or a plane's four numbers."""
+    """Parses (side, mm or None), or a plane's four numbers."""
     if isinstance(given, str):
         return (encoded_text(given, "clip"), None)
     if isinstance(given, Sequence) and len(given) == 2 and isinstance(given[0], str):
@@ -94,7 +95,7 @@ def _clips(given: Any) -> list[tuple[Any, ...]]:
 
 
 def _chosen(given: Any, pairs: int, meshes: int) -> tuple[list[int], list[int]]:
-    """Pair and triangle of each."""
+    """Returns pair and triangle of each row."""
     array = np.asarray(given)
     if array.dtype.names is not None and {"pair", "triangle"} <= set(array.dtype.names):
         return array["pair"].tolist(), array["triangle"].tolist()
@@ -112,7 +113,7 @@ def _chosen(given: Any, pairs: int, meshes: int) -> tuple[list[int], list[int]]:
 def picture_options(pairs: int, meshes: int, *, size: list[int], view: Any, preset: Optional[str], colours: Any,
                     background: Any, lighting: str, show: Optional[str], through: Optional[float], triangles: Any,
                     mesh_colours: Any, clip: Any, clip_meshes: bool) -> dict[str, Any]:
-    """What the library takes."""
+    """Returns the options of a picture in the library's form."""
     if preset is not None and colours is not None:
         raise InvalidArgumentError("preset and colours both say which colours the volume has; leave out one of them")
     options: dict[str, Any] = {
@@ -144,13 +145,13 @@ def picture_options(pairs: int, meshes: int, *, size: list[int], view: Any, pres
 
 
 def png(pixels: npt.NDArray[np.uint8]) -> bytes:
-    """A picture as PNG, in memory."""
+    """Encodes a picture as PNG, in memory."""
     height, width, _ = pixels.shape
 
     def chunk(kind: bytes, content: bytes) -> bytes:
         return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
 
-    rows = np.zeros((height, 1 + 4 * width), dtype=np.uint8)  # each row begins with its filter, none
+    rows = np.zeros((height, 1 + 4 * width), dtype=np.uint8)  # each row begins with its filter: none
     rows[:, 1:] = pixels.reshape(height, 4 * width)
     header = struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)
     return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows.tobytes(), 6))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Straight paths to a target, and their certified distances."""
+"""Straight paths to a target, with certified distances."""
 from __future__ import annotations
 
 import operator
@@ -30,7 +30,7 @@ def plan_options(labels: Optional[Labels], *, avoid: Sequence[Union[int, str]], 
                  entry_radius: Optional[float], border_entries: bool, margin: float, max_length: Optional[float],
                  max_angle: Optional[float], tolerance: float, max: float, max_steps: int,
                  triangle_distances: bool) -> dict[str, Any]:
-    """Members of vxt_plan, and `avoid`; `labels` are the scene's."""
+    """Returns the members of vxt_plan, and `avoid`. `labels`: of the scene."""
     avoided = listed(avoid, "avoid")
     if not avoided and avoid_opacity is None:
         raise InvalidArgumentError("avoid, avoid_opacity: one of them must say what is not to be touched")
@@ -77,7 +77,7 @@ def plan_options(labels: Optional[Labels], *, avoid: Sequence[Union[int, str]], 
 
 
 def _paths_of(rows: npt.NDArray[np.void], first: int) -> npt.NDArray[np.void]:
-    """first: the number of the first obstacle, 0 labels, 1 what is opaque."""
+    """Converts the rows of paths. first: kind of the first obstacle, 0 labels, 1 the opaque region."""
     found = np.zeros(len(rows), _PATH)
     none = rows["near"] == 0
     for name, column in (("entry", "entry"), ("position", "position"), ("length", "length"), ("angle", "angle"),
@@ -108,24 +108,24 @@ class Plan:
 
     @property
     def safe(self) -> npt.NDArray[np.bool_]:
-        """(N,): the path certainly keeps the margin from all obstacles, all the way."""
+        """(N,): the path certainly keeps the margin from all obstacles."""
         found: npt.NDArray[np.bool_] = self.paths["safety"] == _SAFE
         return found
 
     @property
     def undecided(self) -> npt.NDArray[np.bool_]:
-        """(N,): undecided."""
+        """(N,): the path is undecided."""
         found: npt.NDArray[np.bool_] = self.paths["safety"] == _UNDECIDED
         return found
 
     @property
     def distance(self) -> npt.NDArray[np.float64]:
-        """(N,2): lower and upper bound of the distance of each path, mm; 0 where it touches, infinite beyond `max`."""
+        """(N,2): lower and upper bound of the distance of each path, mm; 0 if it touches, infinite beyond `max`."""
         return np.stack([self.paths["lower"], self.paths["upper"]], axis=1)
 
     @property
     def entries(self) -> npt.NDArray[np.float64]:
-        """(N,3): where each begins, LPS, mm."""
+        """(N,3): the entry points, LPS, mm."""
         at: npt.NDArray[np.float64] = self.paths["position"]
         return at
 
@@ -133,16 +133,17 @@ class Plan:
     def paths(self) -> npt.NDArray[np.void]:
         """(N,): the rows of all paths.
 
-        `entry`, the number of its direction; `position` (3) of the entry, LPS, mm; `length`, mm; `angle`, degrees to the
-        normal of the entries' surface, NaN where it has none; `safety`, 0 unsafe, 1 safe, 2 undecided; `lower`, `upper`, `end`
-        as in `Distance`; `obstacle`, 0 labels, 1 what is opaque, -1 nothing within `max`; `label` of what is
-        nearest; `nearest` (3), a point of it; `on_path` (3), the nearest of the needle's axis or of the mesh.
+        `entry`, the index of its direction; `position` (3) of the entry, LPS, mm; `length`, mm; `angle`, degrees to the
+        normal of the entry surface, NaN without a normal; `safety`, 0 unsafe, 1 safe, 2 undecided; `lower`, `upper`,
+        `end` as in `Distance`; `obstacle`, 0 labels, 1 the opaque region, -1 none within `max`; `nearest` (3), the
+        nearest point of the obstacle, and its `label`; `on_path` (3), the nearest point of the needle's axis or of the
+        mesh.
         """
         return self._paths
 
     @property
     def best(self) -> Optional[int]:
-        """The row of the safe path with the largest distance, of several the shortest; None: no path is safe."""
+        """The index of the safe path with the largest distance; of equal ones the shortest; None: no path is safe."""
         rows = np.flatnonzero(self.safe)
         if not rows.size:
             return None
@@ -151,12 +152,13 @@ class Plan:
 
     @property
     def triangles(self) -> npt.NDArray[np.uint32]:
-        """(T,3): rows of neighbouring paths, outward counter-clockwise: the surface that the entries are on."""
+        """(T,3): indices of neighbouring paths, outward counter-clockwise: the triangles of the entry surface."""
         return np.asarray(self._tables.rows("triangles")["paths"])
 
     @property
     def triangle_safe(self) -> npt.NDArray[np.bool_]:
-        """(T,): *every* path from anywhere in the triangle is safe. Never so for a mesh, whose paths alone are decided."""
+        """(T,): *every* path from any point of the triangle is safe. Always False for a mesh, whose paths are decided
+        one by one."""
         found: npt.NDArray[np.bool_] = self._tables.rows("triangles")["safe"] == 1
         return found
 
@@ -164,7 +166,7 @@ class Plan:
     def triangle_distance(self) -> npt.NDArray[np.float64]:
         """(T,): lower bound of the distance of *every* path from the triangle, mm, up to `max`.
 
-        NotReadyError where the plan was made without triangle_distances=True.
+        NotReadyError without triangle_distances=True.
         """
         if not self._with_distances:
             raise NotReadyError("the plan was made without triangle_distances=True; plan again with it")
@@ -172,18 +174,17 @@ class Plan:
 
     @property
     def area(self) -> float:
-        """Of all triangles, mm²."""
+        """Area of all triangles, mm²."""
         return self._tables.total("area")
 
     @property
     def safe_area(self) -> float:
-        """Of the safe ones, mm²."""
+        """Area of the safe triangles, mm²."""
         return self._tables.total("safe_area")
 
     @property
     def left_out(self) -> dict[str, int]:
-        """How many of the directions have no path, and why: "no_surface", "on_border", "too_long",
-        "too_oblique"."""
+        """Number of directions without a path, by reason: "no_surface", "on_border", "too_long", "too_oblique"."""
         return {name: int(self._tables.total(name)) for name in ("no_surface", "on_border", "too_long", "too_oblique")}
 
     @property

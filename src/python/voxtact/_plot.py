@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Plots, with matplotlib where it is there."""
+"""Plots, with matplotlib if it is installed."""
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Union
@@ -67,7 +67,7 @@ def plot_area(area: Area, ax: Any) -> Any:
 
 
 def plot_overlap(overlap: Overlap, ax: Any) -> Any:
-    """Bands are bars, of which a line is a pose."""
+    """Plots overlaps; bands are bars, one line per pose."""
     if not len(overlap.bands):
         return _plot_bounds(overlap, "overlap", "mm³", ax)
     axes = _axes(ax)

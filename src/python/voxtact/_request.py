@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What scenes are asked: meshes at poses, ways of counting, and opacity, in the library's form."""
+"""Requests of scenes: meshes at poses, counting options, and opacity, in the library's form."""
 from __future__ import annotations
 
 import math
@@ -23,7 +23,7 @@ _PIXELS = 512
 
 
 def columns_of(poses: npt.NDArray[np.float64], what: str = "poses") -> npt.NDArray[np.float64]:
-    """(N,4,4): a copy of poses (4,4) or (N,4,4), column by column."""
+    """Returns a column-major copy, (N,4,4), of poses (4,4) or (N,4,4)."""
     if poses.ndim == 2 and poses.shape == (4, 4):
         return poses.T.copy().reshape(1, 4, 4)
     if poses.ndim != 3 or poses.shape[1:] != (4, 4):
@@ -32,7 +32,7 @@ def columns_of(poses: npt.NDArray[np.float64], what: str = "poses") -> npt.NDArr
 
 
 def check_affine(columns: npt.NDArray[np.float64], which: str = "") -> None:
-    """Names the first pose that is not finite or not affine."""
+    """Refuses poses that are not finite or not affine; names the first."""
     if math.isfinite(columns.sum()) and (columns[:, :, 3] == _LAST_ROW).all():
         return
     fine = np.isfinite(columns).all(axis=(1, 2)) & (columns[:, :, 3] == _LAST_ROW).all(axis=1)
@@ -44,7 +44,7 @@ def check_affine(columns: npt.NDArray[np.float64], which: str = "") -> None:
 
 
 class Item:
-    """A mesh at poses, copied: what an answer is about stays known when the arrays change."""
+    """A mesh at poses, copied, so later changes of the arrays do not matter."""
 
     __slots__ = ("mesh", "columns", "first", "first_segment", "data")
 
@@ -79,31 +79,31 @@ class Request:
         self.segments += max(len(columns) - 1, 0)
 
     def check(self) -> None:
-        """Names a pose that is none, before any work: a later piece of it would count from its own first pose."""
+        """Refuses an invalid pose before any work, because a later piece would count from its own first pose."""
         for number, item in enumerate(self.of):
             check_affine(item.columns, f"item {number}, " if number else "")
 
     def part(self, first: int, count: int) -> Iterator[tuple[Mesh, CData, int]]:
-        """Of each item the mesh and the poses that are among `count` pairs from `first` on."""
+        """Returns, for each item, the mesh and the poses among `count` pairs from `first` on."""
         for item in self.of:
             begin, end = max(first, item.first), min(first + count, item.first + len(item.columns))
             if begin < end:
                 yield item.mesh, item.data + 16 * (begin - item.first), end - begin
 
     def part_of_segments(self, first: int, count: int) -> Iterator[tuple[Mesh, CData, int]]:
-        """The same for segments, each with both of its poses."""
+        """Like `part`, for segments, each with both poses."""
         for item in self.of:
             begin, end = max(first, item.first_segment), min(first + count, item.first_segment + len(item.columns) - 1)
             if begin < end:
                 yield item.mesh, item.data + 16 * (begin - item.first_segment), end - begin + 1
 
     def lengths(self, of_segments: bool = False) -> list[int]:
-        """How many pairs, or segments, each item has."""
+        """Returns the number of pairs, or segments, of each item."""
         return [max(len(item.columns) - of_segments, 0) for item in self.of]
 
 
 class TouchQuestion:
-    """A touch: `touch` is its vxt_touch."""
+    """A touch question: `touch` is its vxt_touch."""
 
     __slots__ = ("touch", "is_plain", "count_options")
 
@@ -111,13 +111,13 @@ class TouchQuestion:
                  max_steps: int = 0) -> None:
         self.touch = struct("touch", margin=margin, uncertainty_distance=distance, uncertainty_angle=angle, witness=witness,
                             resolution=resolution, max_steps=max_steps)
-        #: a device has it, too, by the options of a count
+        #: a device supports it by the options of a count
         self.is_plain = margin == distance == angle == max_steps == 0 and not witness
         self.count_options: dict[str, Any] = {"stop_at_first": True, **({"resolution": resolution} if resolution else {})}
 
 
 class Question:
-    """How is counted: `count` is the vxt_count of the host engine."""
+    """A count question: `count` is the vxt_count of the host engine."""
 
     __slots__ = ("count", "projection", "method", "filter", "boundary", "outputs", "max_depth", "samples_per_voxel",
                  "resolution", "stop_at_first", "overestimate", "counters", "max_contacts", "view", "key")
@@ -138,7 +138,7 @@ class Question:
         self.max_contacts = get("max_contacts", 2**20)
         self.view: CData = None
         if "max_depth" in options and not (math.isfinite(self.max_depth) and self.max_depth > 0):
-            refuse(f"max_depth is {self.max_depth}; it must be positive and finite")  # it is looked at where contacts are asked for
+            refuse(f"max_depth is {self.max_depth}; it must be positive and finite")  # only for contacts
         if "view" in options:
             given, width, height = options["view"]
             self.view = ffi.new("vxt_view*", {"clip_from_world": matrix(given, "clip_from_world"), "width": width, "height": height})
@@ -171,7 +171,7 @@ class Question:
         return bool(lib.vxt_projection_uses_view(self.projection))
 
     def again(self, output: str) -> Question:
-        """The same with one output."""
+        """Returns the same question with one output."""
         options: dict[str, Any] = {output: True, "projection": PROJECTIONS[self.projection],
                                    "boundary": _BOUNDARIES[self.boundary]}
         if self.method is not None:
@@ -187,7 +187,7 @@ class Question:
         return question
 
     def view_on(self, grid: CData) -> CData:
-        """That of projections with a camera; without one, the volume from above."""
+        """Returns the camera of projections that use one; the default is from above."""
         if not self.uses_view:
             return NULL
         if self.view is None:
@@ -212,14 +212,14 @@ class Opacity:
         self.points = np.array(doubles(points))
         self.table_size = table_size
         lo, hi = self.domain
-        if lo == hi == 0:  # which stands for what the points span
+        if lo == hi == 0:  # selects the range of the points
             refuse(f"the domain {lo:g}:{hi:g} is empty; the first value must be less than the second")
         self.desc = struct("transfer_function_desc", points=ffi.cast("vxt_control_point*", pointer("double", self.points)),
                            point_count=len(self.points), domain={"lo": lo, "hi": hi}, table_size=table_size)
 
     def facts(self, volume: Volume, threshold: float) -> tuple[bool, bool]:
-        """Whether some values are opaque, and whether some of the volume's are. Of points that are refused somebody else
-        speaks."""
+        """Returns whether some values are opaque, and whether some of the volume's are. Errors in the points are raised
+        elsewhere."""
         found, values = ffi.new("vxt_opacity_facts*"), ffi.new("vxt_range*", volume.range)
         if lib.vxt_check_opacity(self.desc, values, threshold, found):
             return True, True
@@ -227,7 +227,7 @@ class Opacity:
 
 
 def _domain_of(volume: Volume) -> tuple[float, float]:
-    """0 to 255 for uint8, else the volume's values, made wider where that is one value: as the program has it."""
+    """Returns 0 to 255 for uint8, else the volume's values, widened if there is one value: as in the program."""
     if volume.view.type == lib.VXT_SCALAR_UINT8:
         return 0.0, 255.0
     lo, hi = volume.range

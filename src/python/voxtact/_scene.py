@@ -39,7 +39,7 @@ from ._volume import Volume, read_volume
 
 
 class _OpacityProperty(property):
-    """A property that is set by more types than it has."""
+    """A property whose setter accepts more types than its getter returns."""
 
     def __get__(self, scene: Any, owner: Optional[type] = None) -> npt.NDArray[np.float64]:
         points: npt.NDArray[np.float64] = super().__get__(scene, owner)
@@ -64,32 +64,32 @@ def _uncertainty_of(given: Any) -> tuple[float, float]:
 
 
 class Scene(Measuring):
-    """A volume and its opaque region, which meshes are tested against.
+    """A volume and its opaque region, for queries with meshes.
 
     volume
-        whatever `read_volume` takes without options
+        a source that `read_volume` accepts without options
     opacity
-        points (value, opacity), ascending, in the volume's own units: linear between, constant outside, two with one
-        value make a step. Or text ("40:0,80:1"), or a file. None: from 0 to 1 over the domain
+        points (value, opacity), ascending, in the volume's own units: linear between, constant outside, two with equal
+        values make a step. Or text ("40:0,80:1"), or a file. None: from 0 to 1 over the domain
     threshold
-        a sample is opaque where its opacity is at least this: 0 to 1
+        a sample is opaque if its opacity is at least this: 0 to 1
     domain, table_size
-        of the table that projections other than "certified" look opacity up in: what values it covers, and in how
-        many entries. None: 256 over 0 to 255 for uint8, else 4096 over the volume's values
+        range and number of entries of the opacity table, which projections other than "certified" use. None: 256 over
+        0 to 255 for uint8, else 4096 over the volume's values
     labels
-        what `read_labels` takes: for the labels of contacts, and for distances, areas and overlaps of labels
+        a source that `read_labels` accepts: for labels of contacts, distances, areas and overlaps
     device
-        None: the host engine, on all processors. True: the best Vulkan device. Or a number or name of `devices()`, or a
-        `Device`. Counts and touches run there; the host engine answers all else, and a device makes pictures
+        None: the host engine, on all processors. True: the best Vulkan device. Or an index or name of `devices()`, or a
+        `Device`. The device counts, tests for touch and renders; the host engine answers all other questions
     threads
-        of the host engine; 0: one for each processor
+        number of threads of the host engine; 0: one per processor
 
-    Poses are (N,4,4) or (4,4), world_from_object, written row by row (``pose @ [x, y, z, 1]``), affine; the world is
-    LPS, millimetres (`LPS_FROM_RAS` is the way there from RAS). Queries use all changes made before.
+    Poses are (N,4,4) or (4,4), world_from_object, row-major (``pose @ [x, y, z, 1]``), affine; the world is LPS,
+    millimetres (`LPS_FROM_RAS` converts from RAS). Queries use all earlier changes.
 
-    Scenes can be used by threads, one call at a time: the others wait. Work does not hold the interpreter's lock. A
-    KeyboardInterrupt ends it within a second: on the host also in the middle of a pose, on a device between two pieces
-    of about a tenth of a second.
+    Threads can share a scene; calls wait for each other. Queries release the interpreter's lock. A KeyboardInterrupt
+    ends a query within a second: on the host also during a pose, on a device between two pieces of about a tenth of a
+    second.
     """
 
     __slots__ = ("_core", "_volume", "_labels", "_device", "_domain", "_table_size", "_closed", "_warned", "__weakref__")
@@ -110,7 +110,7 @@ class Scene(Measuring):
                                  None if self._device is None else self._device._core,
                                  whole_number(threads, "threads", 0, core.MAX_THREADS))
 
-    # Parts
+    # Properties
 
     @property
     def volume(self) -> Volume:
@@ -119,7 +119,7 @@ class Scene(Measuring):
 
     @property
     def labels(self) -> Optional[Labels]:
-        """Its label map."""
+        """The label map, or None."""
         return self._labels
 
     @property
@@ -138,19 +138,19 @@ class Scene(Measuring):
 
     @property
     def domain(self) -> tuple[float, float]:
-        """The values that the table of opacity covers."""
+        """The range of values that the opacity table covers."""
         return self._core.domain
 
     @property
     def threshold(self) -> float:
-        """The opacity from which a sample is opaque. The next query uses what is set."""
+        """The opacity at which a sample is opaque. The next query uses a new value."""
         return self._core.threshold
 
     @threshold.setter
     def threshold(self, threshold: float) -> None:
         self._core.set_threshold(number(threshold, "threshold"))
 
-    # Changes
+    # Edits
 
     def edit(self, *, ball: Optional[npt.ArrayLike] = None, box: Optional[Sequence[int]] = None,
              value: Optional[float] = None, at: Optional[Sequence[int]] = None,
@@ -158,14 +158,14 @@ class Scene(Measuring):
         """Changes voxels; the next query uses them. One of:
 
         edit(ball=(x, y, z, r), value=v)
-            all voxels whose centre is at most r mm from a point of the world (LPS, mm)
+            all voxels whose centre is within r mm of a world point (LPS, mm)
         edit(box=(x, y, z, nx, ny, nz), value=v)
             nx * ny * nz voxels from voxel (x, y, z) on
         edit(at=(x, y, z), voxels=array)
-            those of an array indexed [z, y, x], from voxel (x, y, z) on
+            the voxels of an array indexed [z, y, x], from voxel (x, y, z) on
 
-        Refuses values that the voxels' type cannot have, and boxes that leave the volume; then nothing is changed. To
-        float32 numbers with a fraction are rounded.
+        Refuses values that the voxel type cannot represent, and boxes outside the volume; then nothing changes. Values
+        of float32 voxels are rounded.
         """
         if sum(choice is not None for choice in (ball, box, at)) != 1:
             raise InvalidArgumentError("an edit has one of ball=, box= and at=")
@@ -200,16 +200,16 @@ class Scene(Measuring):
               max_steps: int = core.DEFAULT_TOUCH_STEPS, progress: Progress = None) -> Touch:
         """Decides whether each pose touches: a `Touch` with a row for each pose, in order.
 
-        The mesh is its surface: an opaque region that a closed mesh encloses without touching it is no contact. A
-        warning says so where the first pose encloses one and no pose touches.
+        Only the surface of the mesh counts: a closed mesh that encloses an opaque region without touching it is a no. A
+        warning reports that the first pose encloses a region if no pose touches.
 
         mesh, poses
             a mesh at poses, (N,4,4) or (4,4); or a list of (mesh, poses) alone
         margin
             mm: decides whether anything opaque is within this distance of the surface
         uncertainty
-            (mm, degrees): decides whether the mesh touches at any pose that is turned by at most so many degrees (0 to
-            180) about any axis through the object's origin, and then moved by at most so many mm
+            (mm, degrees): decides whether the mesh touches at any pose that is rotated by at most these degrees (0 to 180)
+            about any axis through the object's origin, and then translated by at most these mm
         witness
             finds a witness point of each yes: `Touch.witness`; not with an uncertainty
         resolution
@@ -219,7 +219,7 @@ class Scene(Measuring):
         progress
             a function of (done, all), a bar of tqdm, or tqdm itself
 
-        A scene on a device answers there, without margin, uncertainty, witness and max_steps; else the host answers.
+        A scene on a device answers there, except with margin, uncertainty, witness or max_steps: then the host answers.
         Raises InvalidArgumentError for shapes, NaN, and poses that are not affine (naming the first one).
         """
         options = _PLAIN_TOUCH
@@ -251,26 +251,26 @@ class Scene(Measuring):
               progress: Progress = None) -> Count:
         """Counts the passing fragments of each pose, and finds contacts: a `Count` with a row for each pose, in order.
 
-        As of `touch`, the mesh is its surface.
+        Only the surface of the mesh counts, as in `touch`.
 
         mesh, poses
             a mesh at poses, (N,4,4) or (4,4); or a list of (mesh, poses) alone
         triangles, contacts, bounds, labels
-            asks for these in the same call. Reading another one asks again, unless the scene has changed
+            computes these in the same call. Reading another one repeats the query, unless the scene has changed
         stop_at_first
             stops at the first fragment: the count is then 0 or 1. `touch` is faster for the projection "certified"
         projection
-            "certified": misses no contact; "undecided" where rounding decides. "view", "two-view" (of `view`; default
+            "certified": misses no contact; rounding may leave pairs undecided. "view", "two-view" (camera: `view`; default
             from above) and "dominant-axis" (`samples_per_voxel`, 1 to 16) count pixels
         method, filter, boundary, overestimate
-            how a device counts; see docs/counting.md. None and "auto": `Device.default_method`. The host engine has
+            how a device counts (docs/counting.md). None and "auto": `Device.default_method`. The host engine supports
             "cpu" and "exact"
         resolution
-            voxels: minimum size of the pieces of a triangle, of "certified"
+            voxels: minimum size of the pieces of a triangle, for "certified"
         max_depth
             mm: maximum depth of a contact
         max_contacts
-            cuts longer lists of contacts arbitrarily; `Count.contacts_found` keeps their number
+            cuts longer lists of contacts arbitrarily; `Count.contacts_found` is their full number
         counters
             counts the work of a device for the projection "certified": `Count.counters`
         progress
@@ -297,7 +297,7 @@ class Scene(Measuring):
             options["filter"] = filter
         if boundary != "auto":
             options["boundary"] = boundary
-        # Compared by what they are: True is 1, too, and 1.0.
+        # Compared by identity: True equals 1 and 1.0.
         if resolution is not RESOLUTION:
             options["resolution"] = number(resolution, "resolution")
         if samples_per_voxel is not _SAMPLES_PER_VOXEL:
@@ -327,7 +327,7 @@ class Scene(Measuring):
         return Count(tables, self)
 
     def _warn_of_enclosed(self, pairs: int, mesh: Any, poses: Any) -> None:
-        """Warns once per scene where the first pose of a mesh encloses an opaque region that it does not touch."""
+        """Warns once per scene if the first pose of a mesh encloses an opaque region without touching it."""
         if not pairs or not isinstance(mesh, Mesh):
             return
         place = enclosed(self._volume, self.opacity, self.threshold, mesh, poses.reshape(-1, 4, 4)[0])
@@ -354,29 +354,29 @@ class Scene(Measuring):
         avoid
             labels that must not be touched, by number or name, opaque or not
         avoid_opacity, avoid_volume
-            further obstacle: all that is opaque under these points of opacity, in this volume (None: the scene's)
+            further obstacle: the opaque region of this volume (None: the scene's) under these points of opacity
         needle
-            (diameter, length), mm: round and solid, with round ends; 2 mm by 200 mm where there is no mesh either
+            (diameter, length), mm: round and solid, with round ends; default without a mesh: 2 mm by 200 mm
         mesh, tip, axis
-            instead of a needle: its tip, and the direction from there to where it is held, in its coordinates
+            instead of a needle: a mesh, its tip, and the direction from the tip to its handle, in mesh coordinates
         entries
             minimum number of directions from the target, evenly spread; rounded up to 10 n^2 + 2
         entry_label, entry_radius
-            entries are on the outside of this label, or all so far from the target, mm; None: on the outside of what is
-            opaque in the scene
+            entries lie on the outside of this label, or on a sphere of this radius (mm) around the target; None: on the
+            outside of the scene's opaque region
         border_entries
-            paths may begin where the image ends within what is opaque, or within the label, too: there it is the image
-            that was cut, as a scan of a head is at the neck
+            paths may also begin where the image's border cuts the opaque region or the label, such as the neck in a scan
+            of a head
         margin
             mm: minimum distance of a safe path from all obstacles
         max_length, max_angle
-            mm; degrees between a path and the normal of the entries' surface: longer and steeper paths are left out
+            maximum length (mm) and maximum angle to the normal of the entry surface (degrees) of a path
         tolerance, max, max_steps
             mm: stops when upper - lower is at most this; mm: stops when lower reaches this; iteration limit per path
         triangle_distances
-            the distance of all paths from each triangle, too, of a needle: `Plan.triangle_distance`
+            needle only: also bounds the distance of all paths from each triangle: `Plan.triangle_distance`
 
-        The host engine plans, also for scenes on a device. The target may be outside of the volume.
+        The host engine plans, also for scenes on a device. The target may be outside the volume.
         """
         wish = plan_options(self._labels, avoid=avoid, avoid_opacity=avoid_opacity, avoid_volume=avoid_volume, needle=needle, mesh=mesh,
                             tip=tip, axis=axis, entries=entries, entry_label=entry_label, entry_radius=entry_radius,
@@ -396,41 +396,41 @@ class Scene(Measuring):
                 clip_meshes: bool = False, show: Optional[Show] = None, triangles: Optional[npt.ArrayLike] = None,
                 through: Optional[float] = None,
                 mesh_colours: Optional[Sequence[Colour]] = None) -> npt.NDArray[np.uint8]:
-        """A picture of the volume under its opacity, and of meshes in it: (H,W,4), uint8, the uppermost row first.
+        """Renders the volume under its opacity, with meshes in it: (H,W,4), uint8, the uppermost row first.
 
-        A Vulkan device makes it: the scene's, else the best one of this machine; UnsupportedError where there is none.
-        The same picture as `voxtact render --no-annotate` makes of the same.
+        Uses the scene's Vulkan device, else the best one of this machine; UnsupportedError without one. Equals the
+        picture of `voxtact render --no-annotate`.
 
         mesh, pose
-            a mesh at a pose (4,4), None: where its coordinates are, or at several poses (N,4,4); or a list of (mesh,
-            poses) alone
+            a mesh at a pose (4,4; None: the identity), or at several poses (N,4,4); or a list of (mesh, poses)
+            alone
         size
             (width, height), pixels
         view
-            "front", "back", "left", "right", "top", "bottom"; or (azimuth, elevation) in degrees, 0 before the face and
-            90 beside the left ear; or (4,4), clip_from_world; or a `View`, whose size then is the picture's
+            "front", "back", "left", "right", "top", "bottom"; or (azimuth, elevation) in degrees, 0 in front of the
+            face and 90 beside the left ear; or (4,4), clip_from_world; or a `View`, whose size is then the picture's
         preset, colours
-            colours of one of `looks()`; or (N,4), ascending: value, red, green, blue. None: one warm white
+            colours of a name in `looks()`; or (N,4), ascending: value, red, green, blue. None: warm white
         background
             red, green and blue, 0 to 1
         lighting
-            "soft": from the eye and from above its left, darker where a place is shut in; "eye"; "none"
+            "soft": from the eye and from above its left, with ambient occlusion; "eye"; "none"
         clip
-            what is taken away of the volume, up to six times: "left", "right", "front", "back", "top" or "bottom" of a
-            plane through its middle, or ("left", mm) of one at that x, y or z; "near" or ("near", mm): what is nearer to
-            the eye than so many mm before the middle; or (x, y, z, offset): points with x px + y py + z pz > offset
+            up to six cuts of the volume. "left", "right", "front", "back", "top" or "bottom": that side of a plane through
+            the middle; ("left", mm): of a plane at that x, y or z. "near" or ("near", mm): the part nearer to the eye
+            than this distance in front of the middle. (x, y, z, offset): points with x px + y py + z pz > offset
         clip_meshes
-            takes the same of meshes away
+            cuts meshes, too
         show
-            what is red on the meshes: "contacts" (None), as the projection "view" counts them; "discarded" also shows the
-            rest in blue; "triangles": those that touch for certain, or those of `triangles`; "plain": nothing
+            red parts of the meshes: "contacts" (None), as the projection "view" counts them; "discarded" also shows the
+            other fragments in blue; "triangles": certainly touching triangles, or those in `triangles`; "plain": none
         triangles
-            chosen triangles: numbers, of one mesh at all its poses; or rows with `pair` and `triangle`, as
-            `Count.triangles` of the same meshes and poses has them
+            chosen triangles: indices, of one mesh at all its poses; or rows with `pair` and `triangle`, such as
+            `Count.triangles` of the same meshes and poses
         through
-            0 to 1: how much of what is painted is seen through the volume before it; None: 0.8, of "discarded" 1
+            0 to 1: visibility of the paint through the volume; None: 0.8, for "discarded" 1
         mesh_colours
-            (red, green, blue) of each mesh; None: gray, and others
+            (red, green, blue) per mesh; None: gray, then other colours
         """
         if isinstance(view, View):
             size, view = (view.width, view.height), view.clip_from_world
@@ -450,13 +450,13 @@ class Scene(Measuring):
         return self._core.picture(meshes, matrices, options, None if device is None else device._core)
 
     def _repr_png_(self) -> Optional[bytes]:
-        """For notebooks; nothing where no device can draw."""
+        """Shows the picture in notebooks; None without a device."""
         try:
             return png(self.picture(size=(320, 320)))
         except Error:
             return None
 
-    # End
+    # Closing
 
     def close(self) -> None:
         """Frees memory on the host and on the device; later queries raise NotReadyError."""

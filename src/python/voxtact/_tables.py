@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the library answers: tables of columns, as numpy arrays over its memory, made when they are read."""
+"""Answers of the library: tables of columns, as numpy arrays over its memory, created on access."""
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -10,11 +10,11 @@ import numpy.typing as npt
 
 from ._library import CData, check, copied, ffi, lib, shown, struct, text_of
 
-_TYPES = (np.uint32, np.int32, np.uint64, np.float64)  # by vxt_type
-YES, UNDECIDED = 1, 2  # of the columns `touch`
+_TYPES = (np.uint32, np.int32, np.uint64, np.float64)  # indexed by vxt_type
+YES, UNDECIDED = 1, 2  # of the column `touch`
 
 _Layout = dict[str, tuple[np.dtype[Any], bytes, bytes, int]]
-#: Of each question the tables: their rows as numpy has them, and table, name and offset of a column to find them by.
+#: Tables of each question: the numpy dtype of their rows, and table, name and offset of a column that identifies them.
 _layouts: dict[str, _Layout] = {}
 
 
@@ -35,9 +35,10 @@ def _layout_of(handle: CData) -> _Layout:
 
 
 class Tables:
-    """The tables of one question, of pieces: (number of the first row of the main table, vxt_answer).
+    """The tables of one question, in pieces: (index of the first row of the main table, vxt_answer).
 
-    lengths: pairs, or segments, of each item; again: what `Scene.again` needs, in the process that asked
+    lengths: number of pairs, or segments, of each item; again: the arguments of `Scene.again`, in the process that
+    asked
     """
 
     __slots__ = ("question", "lengths", "projection", "outputs", "max_contacts", "counted", "again", "_pieces", "_kept")
@@ -66,7 +67,7 @@ class Tables:
         return _layouts[self.question]
 
     def _names(self) -> list[str]:
-        """Of its tables; where it has been pickled or joined, of those that are kept."""
+        """Returns the names of the tables; of a pickled or joined answer, those of the kept tables."""
         if self._pieces:
             return list(self._layout())
         return [table for table, rows in self._kept.items() if isinstance(rows, np.ndarray) and rows.dtype.names]
@@ -78,7 +79,7 @@ class Tables:
         return shown(ffi.cast("char*", column.data) - offset if column.rows else column.data, (column.rows,), rows, handle)
 
     def rows(self, table: str) -> npt.NDArray[Any]:
-        """All rows of a table. Where it has numbers of pairs, they are those of the whole."""
+        """Returns all rows of a table. Indices of pairs count from the first piece."""
         kept: Optional[npt.NDArray[Any]] = self._kept.get(table)
         if kept is None:
             pieces = [self._piece(handle, table) for _, handle in self._pieces]
@@ -86,7 +87,7 @@ class Tables:
         return kept
 
     def total(self, name: str) -> float:
-        """Of all pieces; 0 of what the question has not."""
+        """Returns the total over all pieces; 0 for a column that the question lacks."""
         totals = self.rows("totals")
         return float(totals[name].sum()) if name in (totals.dtype.names or ()) else 0.0
 
@@ -96,7 +97,7 @@ class Tables:
 
     @classmethod
     def joined(cls, parts: list[Tables]) -> Tables:
-        """Those of several answers to one question about one mesh."""
+        """Joins the tables of several answers to one question about one mesh."""
         one = parts[0]
         if len(parts) == 1:
             return one
@@ -105,7 +106,7 @@ class Tables:
         whole._kept = {table: _joined([part.rows(table) for part in parts], firsts) for table in one._names()}
         return whole
 
-    # Of the table of pairs
+    # The table of pairs
 
     def touch_is(self, verdict: int) -> npt.NDArray[np.bool_]:
         name = f"touch is {verdict}"
@@ -115,7 +116,7 @@ class Tables:
         return found
 
     def touches(self) -> bool:
-        """Whether any certainly does, or may."""
+        """Returns whether each pair certainly touches, or may touch."""
         return bool(self.rows("pairs")["touch"].any())
 
     def count(self) -> npt.NDArray[np.uint64]:
@@ -123,7 +124,7 @@ class Tables:
         return found
 
     def method(self) -> int:
-        """The counting method of the last row; the host's, where nothing was counted."""
+        """The counting method of the last row; without rows, that of the host."""
         if self.question == "count" and len(self):
             return int(self.rows("pairs")["method"][-1])
         return int(lib.VXT_METHOD_CPU)
@@ -135,7 +136,7 @@ class Tables:
         return np.concatenate([np.zeros(0, np.uint32), *(np.arange(length, dtype=np.uint32) for length in self.lengths)])
 
     def counters(self, names: Sequence[str]) -> Optional[tuple[int, ...]]:
-        """Those of these names of all pieces together; nothing where they were not asked for."""
+        """Returns counters by name over all pieces; None if they were not requested."""
         if self.counted and "counters" not in self._kept:
             counters = struct("certified_counters")
             found: list[list[int]] = []
@@ -156,14 +157,14 @@ class Tables:
 
 
 def _tables_again(question: str, lengths: list[int], projection: str, outputs: int, max_contacts: int, kept: dict[str, Any]) -> Tables:
-    """What pickle calls."""
+    """Restores tables from a pickle."""
     tables = Tables(question, lengths, projection, outputs, max_contacts)
     tables._kept = kept
     return tables
 
 
 def _joined(pieces: list[npt.NDArray[Any]], firsts: list[int]) -> npt.NDArray[Any]:
-    """The rows of all pieces, whose pairs begin at these numbers."""
+    """Joins the rows of all pieces; the pairs of each piece begin at these indices."""
     whole = np.zeros(sum(map(len, pieces)), pieces[0].dtype)
     begin = 0
     for first, rows in zip(firsts, pieces):
@@ -175,12 +176,13 @@ def _joined(pieces: list[npt.NDArray[Any]], firsts: list[int]) -> npt.NDArray[An
     return whole
 
 
-# To copy an array takes less than to make one.
+# Copying an array takes less time than creating one.
 _FALSE, _TRUE = np.array([False]), np.array([True])
 
 
 class SingleTables(Tables):
-    """Those of a yes or no about one pose, which is asked most often: the verdict alone, without memory of the library."""
+    """Tables of a touch query about one pose, the most frequent one: the verdict alone, without memory of the library.
+    """
 
     __slots__ = ("_verdict", "_milliseconds")
 
@@ -226,7 +228,7 @@ class SingleTables(Tables):
 
 
 def points_of(get: Any, handle: CData, columns: int) -> npt.NDArray[np.float64]:
-    """A copy of an array of points of the library, of so many doubles each."""
+    """Copies an array of points of the library, each of this number of doubles."""
     count = ffi.new("size_t*")
     first = get(handle, count)
     return copied(first, (count[0], columns))

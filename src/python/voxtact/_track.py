@@ -18,23 +18,23 @@ class Tracked(NamedTuple):
     touches: bool
     #: rounding leaves it undecided
     undecided: bool
-    #: mm: lower bound of the distance; 0 where it touches
+    #: mm: lower bound of the distance; 0 if it touches
     lower: float
-    #: mm: upper bound; infinite where it is unknown
+    #: mm: upper bound; infinite if unknown
     upper: float
     #: the volume was searched; False: the answer follows from earlier ones
     searched: bool
 
     @property
     def free(self) -> bool:
-        """It certainly does not touch."""
+        """True: the mesh certainly does not touch."""
         return not (self.touches or self.undecided)
 
 
 class Tracker:
-    """A mesh that moves in small steps, as by hand. `Scene.tracker` makes one.
+    """A mesh that moves in small steps, as in haptics. `Scene.tracker` creates one.
 
-    While the mesh has moved by less than its known distance, an answer follows from the one before, without a search.
+    While the mesh has moved by less than its known distance, an answer follows from the previous one, without a search.
     Verdicts never depend on earlier calls; the width of the bounds does. Updates use changes of the scene. Calls wait
     for other calls of the scene.
     """
@@ -50,13 +50,13 @@ class Tracker:
 
     @property
     def mesh(self) -> Mesh:
-        """What moves."""
+        """The moving mesh."""
         return self._mesh
 
     def update(self, pose: npt.ArrayLike) -> Tracked:
-        """Moves the mesh to a pose, (4,4), world_from_object, and returns its bounds there.
+        """Moves the mesh to a pose, (4,4), world_from_object, and returns the bounds there.
 
-        Refuses poses that are not affine or not finite; the mesh then stays.
+        Refuses poses that are not affine or not finite; the mesh then does not move.
         """
         return Tracked(*self._core.update(numbers(pose, "pose")))
 

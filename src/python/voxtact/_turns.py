@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Long work beside an interpreter: whose turn it is, what Ctrl-C ends, and what the end of the interpreter waits for."""
+"""Long calls in an interpreter: mutual exclusion, Ctrl-C, and the interpreter's exit."""
 from __future__ import annotations
 
 import _thread
@@ -15,31 +15,31 @@ from typing import Any, Optional, TypeVar
 from ._errors import NotReadyError
 from ._library import NULL, CData, leak, lib, made
 
-#: seconds between two looks at whether a call is done, or there was a signal
+#: seconds between two checks for the end of a call or a signal
 _PATIENCE = 0.05
 _PIECE_SECONDS = 0.1
-#: A piece has at most so many times as many as the one before.
+#: Maximum ratio of a piece's size to the previous one.
 _MAX_GROWTH = 8
 
-#: Who hears how far it is: (done, all).
+#: Receives the progress: (done, all).
 Tell = Optional[Callable[[int, int], object]]
 Method = TypeVar("Method", bound=Callable[..., Any])
 
 _main = threading.main_thread().ident
-#: Threads that are in a call of the library, with what cancels it.
+#: Threads in a call of the library, with their cancel flags.
 _inside: dict[int, CData] = {}
 _ends = False
 
 
 class _TheEnd(BaseException):
-    """Unwinds a call of another thread when the interpreter ends."""
+    """Unwinds a call of another thread when the interpreter exits."""
 
 
-# The end of the interpreter: the C library's own end destroys what a daemon thread in a call would use.
+# Exit of the interpreter: the C library's own exit destroys objects that a daemon thread in a call would use.
 
 
 def _wait_for_calls() -> None:
-    """Called by atexit: cancels the calls of other threads, and waits until none is in one."""
+    """Cancels the calls of other threads at exit, and waits for them."""
     global _ends
     _ends = True
     cancelled: list[CData] = []
@@ -54,13 +54,13 @@ def _wait_for_calls() -> None:
 
 
 def _stop_at_the_end() -> None:
-    """Of a thread that has just said that it is inside: it goes no further where the interpreter ends."""
+    """Stops a thread that has just entered a call if the interpreter exits."""
     if _ends and _thread.get_ident() != _main:
         raise _TheEnd
 
 
 def _wait_for_the_end() -> None:
-    """What other threads do when the interpreter ends. The main thread's last calls are answered."""
+    """Blocks other threads when the interpreter exits. The main thread's last calls are answered."""
     while _thread.get_ident() != _main:
         time.sleep(3600)
 
@@ -69,7 +69,7 @@ atexit.register(_wait_for_calls)
 
 
 def guarded(call: Callable[..., Any], *arguments: Any) -> Any:
-    """Calls what may take long; the end of the interpreter waits for it."""
+    """Runs a call that may take long; the interpreter's exit waits for it."""
     me = _thread.get_ident()
     if me in _inside:
         return call(*arguments)
@@ -85,13 +85,13 @@ def guarded(call: Callable[..., Any], *arguments: Any) -> Any:
             _wait_for_the_end()
 
 
-# Turns
+# Mutual exclusion
 
 _all_turns: weakref.WeakSet[Turns] = weakref.WeakSet()
 
 
 class Turns:
-    """One thread at a time; `cancel` ends the call of the one whose turn it is."""
+    """Lets one thread at a time in; `cancel` ends its call."""
 
     __slots__ = ("cancel", "_lock", "_owner", "__weakref__")
 
@@ -102,14 +102,14 @@ class Turns:
         _all_turns.add(self)
 
     def forget(self) -> None:
-        """In a child of a fork, where a thread that is not there may hold the lock."""
+        """Resets the lock in a forked child, where a missing thread may hold it."""
         if self._owner != _thread.get_ident():
             self._lock = _thread.allocate_lock()
             self._owner = 0
 
 
 def in_turn(method: Method) -> Method:
-    """A method of an object with `_turns` that waits for its turn."""
+    """Decorates a method of an object with `_turns`: the method waits for its turn."""
 
     identity, inside, outside = _thread.get_ident, _inside.get, _inside.pop
 
@@ -161,7 +161,7 @@ os.register_at_fork(after_in_child=_after_fork)
 
 
 class _Job:
-    """A call on a thread of its own."""
+    """A call on its own thread."""
 
     __slots__ = ("_call", "_gate", "_begun", "_given_up", "_ended", "_done", "_answer", "_error")
 
@@ -190,7 +190,7 @@ class _Job:
             self._done.release()
 
     def give_up(self, cancel: CData) -> None:
-        """Returns when the thread is no longer in the call, whatever is pressed meanwhile."""
+        """Returns when the thread has left the call, regardless of further interrupts."""
         while True:
             try:
                 with self._gate:
@@ -217,14 +217,14 @@ class _Job:
             if worker is not None:
                 worker.retire()
             raise
-        error, self._error = self._error, None  # which knows this frame
+        error, self._error = self._error, None  # it holds a reference to this frame
         if error is not None:
             raise error
         return self._answer
 
 
 class _Worker:
-    """The thread that makes the main thread's calls, one after the other: to start one for each takes longer."""
+    """The thread that runs the main thread's calls, one after the other; starting one per call takes longer."""
 
     __slots__ = ("is_free", "_go", "_job", "_retired")
 
@@ -252,7 +252,7 @@ class _Worker:
         self._go.release()
 
     def retire(self) -> None:
-        """Of one that was interrupted, wherever that was."""
+        """Retires a worker that was interrupted, at any point."""
         global _worker
         _worker = None
         self._retired = True
@@ -264,7 +264,8 @@ _worker: Optional[_Worker] = None
 
 
 def _worker_of_main() -> Optional[_Worker]:
-    """Nothing where it is at work: a handler of a signal asks while the main thread waits."""
+    """Returns the main thread's worker, or None while it is busy: a signal handler may ask while the main thread waits.
+    """
     global _worker
     if _worker is None:
         _worker = _Worker()
@@ -272,13 +273,13 @@ def _worker_of_main() -> Optional[_Worker]:
 
 
 def interruptibly(call: Callable[[], Any], cancel: CData) -> Any:
-    """Makes a call that `cancel` ends, which is not set before and after. In the main thread, which alone hears of
-    signals, by another thread: what a handler raises meanwhile ends the call."""
+    """Runs a call that `cancel` ends; it is reset before and after. Calls of the main thread, which alone receives
+    signals, run on another thread, and an exception of a signal handler ends the call."""
     return call() if _ends or _thread.get_ident() != _main else _Job(call).answer(cancel)
 
 
 def tell(progress: Callable[[int, int], object], done: int, total: int) -> None:
-    """Calls back. Meanwhile the thread is in no call: the end of the interpreter does not wait for it."""
+    """Calls back outside the library call, so the interpreter's exit does not wait for it."""
     me = _thread.get_ident()
     mine = _inside.pop(me)
     try:
@@ -289,8 +290,8 @@ def tell(progress: Callable[[int, int], object], done: int, total: int) -> None:
 
 
 def in_pieces(total: int, first: int, most: int, progress: Tell, work: Callable[[int, int], None]) -> None:
-    """Calls `work(first, count)` for `total` things in order, in pieces of about a tenth of a second; the first has
-    `first` of them, none more than `most`."""
+    """Calls `work(first, count)` for `total` items in order, in pieces of about a tenth of a second; the first piece
+    has `first` items, none more than `most`."""
     count = max(min(first, most), 1)
     begin = 0
     while begin < total:

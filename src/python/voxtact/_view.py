@@ -16,7 +16,7 @@ from ._wish import view_from as clip_from_world
 
 
 class View(NamedTuple):
-    """The camera of the projections "view" and "two-view", and of pictures. `view_from` makes one."""
+    """The camera of the projections "view" and "two-view", and of pictures. `view_from` creates one."""
 
     #: (4,4): Vulkan's clip space (x right, y down, depth 0 to 1); orthographic or perspective
     clip_from_world: npt.ArrayLike
@@ -27,14 +27,14 @@ class View(NamedTuple):
 
 def view_from(view: Union[str, tuple[float, float]], volume: Volume, mesh: Optional[Mesh] = None,
               poses: Optional[Poses] = None, *, size: tuple[int, int] = (512, 512)) -> View:
-    """A `View` that frames a volume, as `Scene.picture` does: orthographic, with square pixels.
+    """Returns a `View` that frames a volume, like `Scene.picture`: orthographic, with square pixels.
 
         scene.count(knife, poses, projection="view", view=vx.view_from("left", head, knife, poses))
 
     view
         "front", "back", "left", "right", "top", "bottom"; or (azimuth, elevation) in degrees
     mesh, poses
-        also between the near and the far plane: the projection "view" counts nothing beyond them
+        kept between the near and far planes: the projection "view" counts nothing beyond them
     size
         (width, height), pixels
     """

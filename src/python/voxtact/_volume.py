@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Volumes: from files, from arrays, and from the images of other libraries."""
+"""Volumes: from files, arrays, and images of other libraries."""
 from __future__ import annotations
 
 import os
@@ -28,15 +28,15 @@ _MILLIMETRES = {"mm": 1.0, "meter": 1000.0, "micron": 0.001}
 
 
 class Volume:
-    """A 3D image with its place in the world. `read_volume` makes one.
+    """An immutable 3D image with its position in the world. `read_volume` creates one.
 
-    It does not change: a `Scene` has voxels of its own to edit. Where it was made of an array without a copy, the array
-    must not change as long as scenes are made of it.
+    A `Scene` edits its own copy of the voxels. A volume may share the memory of an array without a copy; then the array
+    must not change while scenes are created from it.
     """
 
     __slots__ = ("_core", "_assumed")
     _core: core.Volume
-    _assumed: bool  # that the affine leads to RAS: nobody has said so
+    _assumed: bool  # True: the affine maps to RAS by default, not by a statement
 
     def __init__(self) -> None:
         raise TypeError("voxtact.read_volume() makes volumes: from a file, an array with affine=, or an image object")
@@ -55,18 +55,18 @@ class Volume:
 
     @property
     def shape(self) -> tuple[int, int, int]:
-        """Voxels along z, y and x, as `array` has them."""
+        """Number of voxels along z, y and x, like `array`."""
         x, y, z = self._core.size
         return (z, y, x)
 
     @property
     def dtype(self) -> np.dtype[Any]:
-        """Of the voxels."""
+        """Type of the voxels."""
         return self._core.array.dtype
 
     @property
     def spacing(self) -> npt.NDArray[np.float64]:
-        """mm from voxel to voxel along x, y and z."""
+        """mm between voxels along x, y and z."""
         return self._core.spacing
 
     @property
@@ -76,22 +76,23 @@ class Volume:
 
     @property
     def direction(self) -> npt.NDArray[np.float64]:
-        """(3,3): its columns are the unit vectors along the index axes x, y and z, LPS."""
+        """(3,3): the columns are the unit vectors along the index axes x, y and z, LPS."""
         return self._core.direction
 
     @property
     def world_from_index(self) -> npt.NDArray[np.float64]:
-        """(4,4): takes voxel numbers (x, y, z, 1) to LPS, mm."""
+        """(4,4): maps voxel indices (x, y, z, 1) to LPS, mm."""
         return self._core.world_from_index
 
     @property
     def affine(self) -> npt.NDArray[np.float64]:
-        """(4,4): takes voxel numbers (x, y, z, 1) to RAS, mm: nibabel's."""
+        """(4,4): maps voxel indices (x, y, z, 1) to RAS, mm, as in nibabel."""
         return LPS_FROM_RAS @ self._core.world_from_index
 
     @property
     def bounds(self) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-        """The least and the greatest corner of the world box around it, out to the outermost voxels' faces: LPS, mm."""
+        """Minimum and maximum corner of the world bounding box, out to the outer faces of the outermost voxels: LPS,
+        mm."""
         return self._core.box
 
     @property
@@ -101,12 +102,12 @@ class Volume:
 
     @property
     def name(self) -> str:
-        """The file's name, or what the array came from."""
+        """Name of the file or source."""
         return self._core.name
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What was done on the way that you may want to know: copies, conversions, what a file does not say."""
+        """Notes of the reader: copies, conversions and assumptions."""
         return tuple(self._core.notes)
 
     def write(self, path: Union[str, os.PathLike[str]]) -> None:
@@ -114,7 +115,7 @@ class Volume:
         self._core.write(encoded(path))
 
     def __array__(self, dtype: Any = None, copy: Optional[bool] = None) -> npt.NDArray[Any]:
-        """For `np.asarray(volume)`: `array`."""
+        """Implements `np.asarray(volume)`: `array`."""
         return np.array(self.array, dtype) if copy else np.asarray(self.array, dtype)
 
     def __repr__(self) -> str:
@@ -132,20 +133,20 @@ class Volume:
 
 def _volume_again(voxels: npt.NDArray[Any], spacing: npt.NDArray[np.float64], origin: npt.NDArray[np.float64],
                   direction: npt.NDArray[np.float64], name: str, notes: tuple[str, ...]) -> Volume:
-    """What pickle calls."""
+    """Restores a volume from a pickle."""
     return Volume._of(core.Volume.wrap(voxels, spacing, origin, direction, encoded_text(name, "name"),
                                        [encoded_text(note, "a note") for note in notes]))
 
 
 def _in_z_y_x(array: npt.NDArray[Any], axes: Optional[str]) -> npt.NDArray[Any]:
-    """The same array, indexed [z, y, x]. What an index means is said, and does not depend on the order in memory."""
+    """Returns the array indexed [z, y, x]. The meaning of an index does not depend on the order in memory."""
     if axes not in (None, "zyx", "xyz"):
         raise InvalidArgumentError(f"axes={axes!r} is neither 'zyx' nor 'xyz'")
     return array if axes == "zyx" else array.T
 
 
 def _named_axes(source: Any, axes: Optional[str]) -> Optional[str]:
-    """`axes`, or the order of an array whose dimensions have names, as xarray's have: where some are x, y or z."""
+    """Returns `axes`, or the order of an array with named dimensions x, y and z, such as xarray's."""
     names = getattr(source, "dims", None)
     if not isinstance(names, tuple):
         return axes
@@ -161,7 +162,7 @@ def _named_axes(source: Any, axes: Optional[str]) -> Optional[str]:
 
 
 def _stored(array: npt.NDArray[Any], notes: list[str]) -> npt.NDArray[Any]:
-    """One of the types that voxtact keeps, as its readers of files choose them."""
+    """Converts to a voxel type of voxtact, by the rules of its file readers."""
     kind, size = array.dtype.kind, array.dtype.itemsize
     if kind == "b":
         return array.view(np.uint8)
@@ -182,7 +183,7 @@ def _stored(array: npt.NDArray[Any], notes: list[str]) -> npt.NDArray[Any]:
     if (kind, size) in (("u", 1), ("i", 2), ("u", 2)):
         return array
     if array.size == 0:
-        return array.astype(np.int16)  # refused with all that are empty
+        return array.astype(np.int16)  # refused with all empty arrays
     lo, hi = int(array.min()), int(array.max())
     for target in (np.dtype(np.int16), np.dtype(np.uint16)):
         limits = np.iinfo(target)
@@ -197,7 +198,7 @@ def _stored(array: npt.NDArray[Any], notes: list[str]) -> npt.NDArray[Any]:
 
 
 def _grid(affine: npt.ArrayLike, space: Space) -> tuple[npt.NDArray[np.float64], ...]:
-    """Spacing, origin and direction of voxel numbers (x, y, z) -> world."""
+    """Returns spacing, origin and direction of a matrix from voxel indices (x, y, z) to the world."""
     matrix = numbers(affine, "affine")
     if matrix.shape != (4, 4):
         raise InvalidArgumentError(f"affine has the shape {matrix.shape}; (4, 4) is needed")
@@ -237,11 +238,11 @@ def _volume_of_array(array: Any, affine: npt.ArrayLike, space: Space, axes: Opti
                                        [encoded_text(note, "a note") for note in said]))
 
 
-# Objects of other libraries, by what they have
+# Objects of other libraries, by their attributes
 
 
 def _says_no_place(header: Any) -> bool:
-    """Whether it is that of a NIfTI file with neither qform nor sform."""
+    """Returns True for a NIfTI image with neither qform nor sform."""
     keys: Any = getattr(header, "keys", tuple)()
     return "sform_code" in keys and int(header["sform_code"]) == 0 and int(header["qform_code"]) == 0
 
@@ -277,14 +278,14 @@ def _of_nibabel(image: Any, frame: Optional[int]) -> Volume:
     name = image.get_filename() if hasattr(image, "get_filename") else None
     volume = _volume_of_array(array, affine, "ras", "xyz", os.path.basename(name or "nibabel image"), notes)
     shear, most = volume._core.shear()
-    if shear > most:  # as of the file
+    if shear > most:  # as in the file
         raise InvalidArgumentError(f"the image's affine shears it by {shear:.3g} degrees (its axes are not at "
                                    "right angles); resample it to an upright grid, or hand over its array with affine=")
     return volume
 
 
 def _of_itk(image: Any) -> Volume:
-    """SimpleITK's images, and itk's."""
+    """Reads images of SimpleITK and itk."""
     if hasattr(image, "GetNumberOfComponentsPerPixel") and image.GetNumberOfComponentsPerPixel() != 1:
         raise InvalidArgumentError("the image has several numbers per voxel; one is needed")
     spacing = np.array([float(step) for step in image.GetSpacing()])
@@ -303,14 +304,14 @@ def _of_itk(image: Any) -> Volume:
     affine = np.eye(4)
     affine[:3, :3] = columns * spacing
     affine[:3, 3] = origin
-    if hasattr(image, "GetBufferedRegion"):  # itk's: the origin is where voxel 0 would be, and the array may begin at another
+    if hasattr(image, "GetBufferedRegion"):  # itk: the origin is that of voxel 0, and the array may begin at another
         first = image.GetBufferedRegion().GetIndex()
         affine[:3, 3] += affine[:3, :3] @ np.array([float(first[axis]) for axis in range(3)])
     return _volume_of_array(array, affine, "lps", "zyx", "ITK image")
 
 
 def _of_vtk_image(image: Any, space: Space) -> Volume:
-    from vtkmodules.util.numpy_support import vtk_to_numpy  # the object is VTK's, so VTK is there
+    from vtkmodules.util.numpy_support import vtk_to_numpy  # a VTK object proves that VTK is installed
 
     scalars = image.GetPointData().GetScalars()
     if scalars is None:
@@ -334,7 +335,7 @@ def _of_vtk_image(image: Any, space: Space) -> Volume:
 
 
 def _refuse_what_is_no_array(source: Any) -> None:
-    """Raises TypeError for a thing of which numpy makes no array but one of objects, as it does of nearly everything."""
+    """Raises TypeError for an object that numpy converts to an array of objects only."""
     if isinstance(source, (list, tuple)) and source and all(isinstance(one, (str, bytes, os.PathLike)) for one in source):
         raise TypeError("no volume can be made of a list of paths: give one, of a DICOM series that of the folder that "
                         "holds it")
@@ -351,23 +352,22 @@ def _refuse_what_is_no_array(source: Any) -> None:
 
 def read_volume(source: Any, *, affine: Optional[npt.ArrayLike] = None, space: Optional[Space] = None,
                 axes: Optional[Literal["zyx", "xyz"]] = None, frame: Optional[int] = None, series: str = "") -> Volume:
-    """A volume from a file, an array, or an image of another library.
+    """Reads a volume from a file, an array, or an image of another library.
 
     source
         - a path: NIfTI, NRRD, MetaImage, or a folder with a DICOM series; ``"builtin:head:64"`` and the other names of
-          the program's builtins. `frame` chooses one of a 4D file, `series` a SeriesInstanceUID.
-        - an array of three dimensions with `affine`, (4,4): it takes voxel numbers (x, y, z, 1) to the world in mm, to
-          RAS as nibabel's do, or to LPS with ``space="lps"``. The array is indexed [x, y, z], as nibabel's are; with
-          ``axes="zyx"`` it is indexed [z, y, x], as `Volume.array` is. Its order in memory does not matter. Dimensions
-          that are named x, y and z, as xarray's may be, say it themselves; coordinates are not looked at.
-        - a nibabel image (4D: with `frame`), an image of SimpleITK or itk, or a vtkImageData (which knows no space: LPS,
-          unless ``space="ras"``).
+          the program's builtins. `frame` selects an image of a 4D file, `series` a SeriesInstanceUID.
+        - an array of three dimensions with `affine`, (4,4): it maps voxel indices (x, y, z, 1) to the world in mm, RAS
+          as in nibabel, or LPS with ``space="lps"``. The array is indexed [x, y, z], as in nibabel; with
+          ``axes="zyx"`` it is indexed [z, y, x], like `Volume.array`. Its order in memory does not matter. Named
+          dimensions x, y and z, such as xarray's, override `axes`; coordinates are ignored.
+        - a nibabel image (4D: with `frame`), an image of SimpleITK or itk, or a vtkImageData (LPS, unless
+          ``space="ras"``).
 
-    uint8, int16, uint16 and float32 with x next to each other in memory are taken without a copy, and must not change
-    then. Other whole numbers
-    become int16, uint16 or, where that is exact, float32; float64 is rounded. Every copy is told in `Volume.notes`.
+    uint8, int16, uint16 and float32 arrays whose x axis is contiguous are not copied, and must not change afterwards.
+    Other whole numbers become int16, uint16 or, if exact, float32; float64 is rounded. `Volume.notes` lists copies.
 
-    Raises FileError, FormatError, and InvalidArgumentError, for NaN and infinite voxels too.
+    Raises FileError, FormatError, and InvalidArgumentError, also for NaN and infinite voxels.
     """
     placed = affine is not None or space is not None or axes is not None
     if isinstance(source, Volume):

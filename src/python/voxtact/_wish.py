@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What pictures are asked for, in the library's form."""
+"""Options of pictures, in the library's form."""
 from __future__ import annotations
 
 import math
@@ -31,13 +31,13 @@ def look_names() -> list[str]:
 
 
 def look(name: bytes, volume: Volume) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-    """Opacity and colours."""
+    """Returns opacity and colours of a look."""
     found = made("look", lib.vxt_look_create, name, ffi.new("vxt_range*", volume.range))
     return points_of(lib.vxt_look_opacity, found, 2), points_of(lib.vxt_look_colours, found, 4)
 
 
 def _direction_of(view: Any) -> CData:
-    """A vxt_view_direction of a name or of angles; nothing of a matrix."""
+    """Returns a vxt_view_direction from a name or angles; None for a matrix."""
     if isinstance(view, str):
         named(view, "view", _DIRECTIONS)
         direction = ffi.new("vxt_view_direction*")
@@ -47,7 +47,7 @@ def _direction_of(view: Any) -> CData:
 
 
 def _view_of(direction: CData, volume: Volume, shown: Optional[Request], width: int, height: int, what: str) -> list[float]:
-    """A view that frames the volume; what is shown is between its near and far plane, too."""
+    """Returns a view that frames the volume; meshes are between its near and far plane, too."""
     if width == 0 or height == 0:
         refuse(f"size has a 0; a {what} has at least one pixel")
     if not math.isfinite(direction.azimuth) or not math.isfinite(direction.elevation):
@@ -72,7 +72,7 @@ def view_from(view: Any, volume: Volume, mesh: Optional[Mesh], poses: Optional[n
 
 
 def _clip_of(given: tuple[Any, ...], volume: Volume, direction: CData) -> tuple[list[float], float]:
-    """Of (side, mm or None), or of (x, y, z, offset)."""
+    """Returns a plane from (side, mm or None), or from (x, y, z, offset)."""
     if len(given) == 4:
         return list(given[:3]), given[3]
     side = given[0].decode("utf-8", "surrogateescape")
@@ -92,7 +92,7 @@ def _colour_by(get: Callable[..., None], *arguments: Any) -> list[float]:
 
 
 class PictureWish:
-    """What a picture shows, and how."""
+    """Contents and appearance of a picture."""
 
     def __init__(self, volume: Volume, meshes: Any, poses: Any, options: dict[str, Any]) -> None:
         self.shown = None if meshes is None else Request(meshes, poses)
@@ -130,7 +130,7 @@ class PictureWish:
         self.through = options["through"] if "through" in options else lib.vxt_paint_through(self.paint)
 
     def _chosen(self, pairs: list[int], triangles: list[int]) -> list[list[int]]:
-        """Chosen triangles by the pair; their own numbers are refused with the mesh."""
+        """Returns the chosen triangles of each pair; wrong indices are refused with the mesh."""
         count = 0 if self.shown is None else self.shown.pairs
         chosen: list[list[int]] = [[] for _ in range(count)]
         for pair, triangle in zip(pairs, triangles):

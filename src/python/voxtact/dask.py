@@ -4,13 +4,13 @@
     from dask.distributed import Client
     from voxtact.dask import ask
 
-    def scene():                                       # a worker calls it once
+    def scene():                                       # each worker calls it once
         return vx.Scene("head.nii.gz", opacity=[(40, 0), (80, 1)], threads=1)
 
     with Client("tcp://scheduler:8786") as client:
         answer = ask("touch", scene, knife, poses, client, margin=2)
 
-Scenes cannot be sent: each worker makes its own. What is sent are meshes, poses and answers.
+Scenes cannot be sent: each worker creates its own. Meshes, poses and answers are sent.
 """
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ from ._tables import Tables
 
 Question = Literal["touch", "count", "distance", "area", "overlap", "motion"]
 
-#: A smaller task costs more to send than to answer.
+#: Minimum poses per task; a smaller task takes longer to send than to answer.
 PER_TASK = 100_000
 
 
@@ -42,7 +42,7 @@ def _kept_scene(make: Callable[[], Scene]) -> Scene:
 
 
 def _part(question: str, make: Callable[[], Scene], mesh: Mesh, poses: Any, options: dict[str, Any]) -> Any:
-    """What a worker does."""
+    """Runs a worker's part."""
     return getattr(_kept_scene(make), question)(mesh, poses, **options)
 
 
@@ -51,16 +51,16 @@ def ask(question: Question, scene_factory: Callable[[], Scene], mesh: Mesh,
     """Answers like `Scene.QUESTION(mesh, poses, **options)`, row for row, by the workers of a cluster.
 
     scene_factory
-        makes the scene; a worker calls it once. A function of a module, or what else Dask can send
+        creates the scene; each worker calls it once. A function of a module, or another object that Dask can send
     client
-        of dask.distributed; None: the current one
+        client of dask.distributed; None: the current one
     per_task
-        poses of a task
+        number of poses per task
     options
-        of the question. Later requests of outputs are refused: `count(contacts=True)` requests contacts
+        options of the question. Later requests of outputs are refused: `count(contacts=True)` requests contacts
 
-    Each pose is answered for itself: pieces change nothing. Raises what the question raises; a pose that is none is named
-    by its number in its task.
+    Answers do not depend on the division into tasks. Raises the question's errors; an invalid pose is named by its index
+    in its task.
     """
     if client is None:
         from dask.distributed import get_client
@@ -71,7 +71,7 @@ def ask(question: Question, scene_factory: Callable[[], Scene], mesh: Mesh,
     matrices = numbers(poses, "poses")
     whole = matrices.reshape(-1, 4, 4) if matrices.shape[-2:] == (4, 4) else matrices
     size = whole_number(per_task, "per_task", 1)
-    # A segment has both of its poses.
+    # A segment needs both of its poses.
     last, more = (count_of(whole) - 1, 1) if question == "motion" else (count_of(whole), 0)
     there = client.scatter(mesh, broadcast=True) if last > size else mesh
     tasks = [client.submit(_part, question, scene_factory, there, whole[first:min(first + size, last) + more], options, pure=False)
@@ -80,7 +80,7 @@ def ask(question: Question, scene_factory: Callable[[], Scene], mesh: Mesh,
 
 
 def _joined(parts: list[Any]) -> Any:
-    """The answer of all parts."""
+    """Joins the answers of all parts."""
     joined = copy.copy(parts[0])
     joined._tables = Tables.joined([part._tables for part in parts])
     if isinstance(joined, Motion):

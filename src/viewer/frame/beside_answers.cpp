@@ -80,7 +80,7 @@ Result<LiveAnswer> BesideAnswers::submit(const LiveQuestion& question) {
         return answers_.record(commands, *scene_, question, 0);
     });
     if (!times.ok()) {
-        static_cast<void>(answers_.collect(0, 0)); // what was recorded is not asked any more
+        static_cast<void>(answers_.collect(0, 0)); // discards the recorded questions
         return times.error();
     }
     return *answers_.collect(0, times->wallMilliseconds);

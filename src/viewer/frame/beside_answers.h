@@ -11,8 +11,8 @@
 
 namespace voxtact::view {
 
-/// Answers of the device while frames go on, on a thread and with submissions of its own, one at a time: no frame waits
-/// for what is compiled for a method that was not used before.
+/// Answers of the device beside the frames, on a separate thread with its own submissions, one at a time: no frame
+/// waits for the compilation of a new method.
 class BesideAnswers {
   public:
     /// The scene must outlive it. `wake`: called from its thread when there is an answer.
@@ -23,7 +23,7 @@ class BesideAnswers {
     /// Waits for the answer that is being made.
     ~BesideAnswers();
 
-    /// What is asked is not answered, or the answer was not taken.
+    /// A question is not answered, or its answer was not taken.
     [[nodiscard]] bool busy() const { return busy_; }
     /// Only while it is not busy.
     void ask(LiveQuestion question);

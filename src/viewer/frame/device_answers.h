@@ -36,12 +36,12 @@ class DeviceAnswers {
     /// The ways to answer of this device, and of the host.
     [[nodiscard]] static std::vector<MethodChoice> choices(const Context& context);
 
-    /// Whether record() finds a detector for it.
+    /// True if record() finds a detector for it.
     [[nodiscard]] bool ready(const MethodChoice& method) const { return detectors_->find(method) != nullptr; }
     /// Into a frame whose slot's last use is done. Under DeviceScene::recording().
     [[nodiscard]] Result<void> record(VkCommandBuffer commands, const DeviceScene& scene, const LiveQuestion& question,
                                       std::uint32_t slot);
-    /// Of a slot's frame, which is done; nothing where it asked nothing.
+    /// Returns the answer of a slot's completed frame; empty without a question.
     [[nodiscard]] std::optional<Result<LiveAnswer>> collect(std::uint32_t slot, double wallMilliseconds);
 
   private:

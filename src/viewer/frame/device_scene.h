@@ -18,9 +18,9 @@ class DeviceMesh {
     [[nodiscard]] static Result<DeviceMesh> create(const device::Session& session, const Renderer& renderer,
                                                    const MeshData& data);
 
-    /// These triangles and no others, in the pictures of a slot whose last use is done.
+    /// Paints exactly these triangles, in the pictures of a slot whose last use is complete.
     void paint(std::span<const std::uint32_t> triangles, std::uint32_t slot);
-    /// What a picture shows of it. Valid as long as this.
+    /// Returns the mesh for a picture. Valid as long as this.
     [[nodiscard]] SceneMesh shown(const Instrument& instrument, std::uint32_t slot) const;
     [[nodiscard]] const Mesh& mesh() const { return *mesh_; }
 
@@ -34,7 +34,7 @@ class DeviceMesh {
     std::array<std::optional<PaintedTriangles>, kFramesInFlight> painted_;
 };
 
-/// What a picture shows: the scene, whose other meshes are here. To be moved, not copied.
+/// Scene of a picture, with its other meshes. Movable, not copyable.
 struct ShownScene {
     Scene scene;
     std::vector<SceneMesh> others;
@@ -65,7 +65,7 @@ class DeviceScene {
     [[nodiscard]] std::uint64_t written() const { return written_; }
     /// Paints the triangles of the last answer on all meshes, in the pictures of a slot whose last use is done.
     void paint(const State& state, std::uint32_t slot);
-    /// What a picture shows: of the meshes those that are shown. Valid as long as this.
+    /// Returns the scene of a picture with the visible meshes. Valid as long as this.
     [[nodiscard]] ShownScene scene(const State& state, std::uint32_t slot, bool fine, const Extent& extent) const;
     /// Valid as long as this.
     [[nodiscard]] AskedPairs pairs(const Edit& edit) const;
@@ -77,7 +77,7 @@ class DeviceScene {
     [[nodiscard]] BlockingRenderer& blocking() { return *blocking_; }
     /// Null where there is no label map.
     [[nodiscard]] const LabelMap* labels() const { return labels_ ? &*labels_ : nullptr; }
-    /// How many meshes there are, and their triangles together.
+    /// Number of meshes, and of all their triangles.
     [[nodiscard]] std::uint32_t meshes() const { return static_cast<std::uint32_t>(meshes_.size()); }
     [[nodiscard]] std::uint64_t triangles() const;
 
@@ -85,7 +85,7 @@ class DeviceScene {
     DeviceScene() = default;
     [[nodiscard]] Result<void> uploadFunctions(const device::Session& session, const State& state);
 
-    // In the order in which they end, the last first.
+    // Destroyed in reverse order.
     std::optional<BlockingRenderer> blocking_;
     std::optional<Volume> volume_;
     std::optional<RenderBricks> bricks_;

@@ -92,7 +92,7 @@ void Frames::setTextures(State& state) {
 Frames::~Frames() {
     const VolkDeviceTable& table = session_->device.table();
     VkDevice device = session_->device.handle();
-    // Of a lost device too it returns.
+    // Returns also if the device is lost.
     static_cast<void>(waitForDevice());
     for (const Slot& slot : slots_) {
         table.vkDestroySemaphore(device, slot.acquired, nullptr);
@@ -107,7 +107,7 @@ Result<void> Frames::waitForDevice() {
     return result == VK_SUCCESS ? Result<void>() : vulkanError(result, "waiting for the frames of the window");
 }
 
-/// Not for what other threads have on the device.
+/// Does not wait for the work of other threads.
 Result<void> Frames::waitForFrames() {
     for (const Slot& slot : slots_) {
         const VkResult result =
@@ -165,7 +165,7 @@ Result<void> Frames::collect(State& state) {
     return stage_ ? collectAnswers(state, wall, frame) : Result<void>();
 }
 
-/// Of the slot's frame, where there was one, and of the host.
+/// Collects the answers of the slot's frame, if any, and of the host.
 Result<void> Frames::collectAnswers(State& state, double wallMilliseconds, bool frame) {
     if (frame) {
         stage_->pictures->collect(slot_, wallMilliseconds);
@@ -188,7 +188,7 @@ Result<void> Frames::collectAnswers(State& state, double wallMilliseconds, bool 
     return {};
 }
 
-/// Of what was asked while frames go on. A method that cannot answer is told of, and the one before comes back.
+/// Collects answers beside the frames. Reports a method that cannot answer, and restores the previous one.
 Result<void> Frames::collectBeside(State& state) {
     if (std::optional<Result<LiveAnswer>> compared = stage_->host->takeCompared()) {
         state.comparison.take(std::move(*compared));
@@ -320,7 +320,7 @@ Result<void> Frames::begin() {
     return result == VK_SUCCESS ? Result<void>() : vulkanError(result, "recording a frame of the window");
 }
 
-/// The transfer function and the question. A method that cannot answer is told of, and the one before comes back.
+/// Records the transfer function and the question. Reports a method that cannot answer, and restores the previous one.
 Result<void> Frames::recordAnswer(State& state) {
     const std::lock_guard lock(stage_->scene->recording());
     VOXTACT_TRY(stage_->scene->cmdUpdate(slot().commands, state));
@@ -330,7 +330,7 @@ Result<void> Frames::recordAnswer(State& state) {
         }
         state.complain(asked.error().text);
         state.method = answering_;
-        // What was recorded so far is not to be submitted.
+        // The recorded commands are not submitted.
         stage_->scene->forgetUpdate();
         VOXTACT_TRY(begin());
         VOXTACT_TRY(stage_->scene->cmdUpdate(slot().commands, state));

@@ -7,8 +7,8 @@
 
 namespace voxtact::view {
 
-/// Makes the window's frames: answer, picture, slices and panels in one submission, two of them in flight. Nothing
-/// waits for the device but a change of a size, and another stage. Without a stage there are panels only.
+/// Makes the window's frames: answer, picture, slices and panels in one submission, two of them in flight. Only a
+/// change of size and a new stage wait for the device. Without a stage there are only panels.
 class Frames {
   public:
     /// Takes the surface.
@@ -16,7 +16,7 @@ class Frames {
     /// Waits for the device.
     ~Frames();
 
-    /// Whether the next frame's slot is free.
+    /// True if the next frame's slot is free.
     [[nodiscard]] bool ready() const;
     /// Before the panels: what the slot's frame and the host have answered since. Only when ready().
     [[nodiscard]] Result<void> collect(State& state);
@@ -26,8 +26,8 @@ class Frames {
     [[nodiscard]] Result<std::unique_ptr<Stage>> put(std::unique_ptr<Stage> stage, State& state);
     /// The window's images on another surface, which it takes, after a frame was refused with SURFACE_LOST.
     [[nodiscard]] Result<void> renewSurface(const std::function<Result<VkSurfaceKHR>()>& make);
-    /// What a picture of the state shows at a size, and who makes it, on any one thread, as long as the stage is there.
-    /// Only where there is one.
+    /// Returns the scene of a picture at a size, and its renderer, for use on any one thread while the stage exists.
+    /// Requires a stage.
     [[nodiscard]] std::pair<ShownScene, BlockingRenderer*> screenshot(const State& state, const Extent& extent);
 
   private:
@@ -68,8 +68,8 @@ class Frames {
     std::uint32_t slot_ = 0;      ///< of the next frame
     std::uint64_t asked_ = 0;     ///< State::revision of the last question that the host or a frame was asked
     std::uint64_t askedHost_ = 0; ///< the same of the host, which measures clearances
-    bool besideCompares_ = false; ///< what is asked while frames go on is of the comparison
-    MethodChoice besideMethod_;   ///< what is asked there else
+    bool besideCompares_ = false; ///< the question beside the frames belongs to the comparison
+    MethodChoice besideMethod_;   ///< method of the other question beside the frames
     MethodChoice answering_;      ///< the last that gave an answer
     std::array<VkDescriptorSet, 3> sliceSets_{};
     VkDescriptorSet coarse_ = VK_NULL_HANDLE;

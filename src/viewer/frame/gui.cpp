@@ -24,7 +24,7 @@ struct Placement {
     std::array<float, 2> most;
 };
 
-/// At least so many bytes; half as many more, so that it seldom grows.
+/// Grows to at least this size, by at least half, so it grows seldom.
 Result<void> grow(const device::VulkanDevice& device, HostBuffer& buffer, std::size_t bytes, VkBufferUsageFlags usage) {
     if (buffer.bytes().size() >= bytes && !buffer.bytes().empty()) {
         return {};

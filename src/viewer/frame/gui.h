@@ -10,7 +10,7 @@ struct ImDrawData;
 
 namespace voxtact::view {
 
-/// What is drawn where panels show one of the textures.
+/// A texture that panels show.
 struct ShownTexture {
     VkDescriptorSet panels = VK_NULL_HANDLE; ///< what they name
     VkDescriptorSet drawn = VK_NULL_HANDLE;
@@ -20,12 +20,12 @@ struct ShownTexture {
 /// Draws what Dear ImGui's panels made, by a pipeline of our own: dynamic rendering, no linked loader.
 class Gui {
   public:
-    /// Of the current ImGui context, whose font is uploaded: submits, and waits.
+    /// Uses the current ImGui context, whose font it uploads: submits, and waits.
     [[nodiscard]] static Result<Gui> create(const device::Session& session, VkFormat format);
 
-    /// A texture for ImGui::Image(); what it shows is set later. At most 8 of them.
+    /// Creates a texture for ImGui::Image(); its image is set later. At most 8 textures.
     [[nodiscard]] Result<VkDescriptorSet> addTexture() { return drawing_.addTexture(); }
-    /// No frame with it may be in flight.
+    /// No frame that uses it may be in flight.
     void setTexture(VkDescriptorSet texture, VkImageView view, VkImageLayout layout) const {
         drawing_.textures.set(texture, view, layout);
     }

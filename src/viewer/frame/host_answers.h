@@ -12,8 +12,8 @@
 
 namespace voxtact::view {
 
-/// Answers of the host engine, clearances and areas, on a thread of its own: of several questions the last is answered.
-/// What is being measured gives way to a new question, and so does a comparison.
+/// Answers of the host engine, with distances and areas, on a separate thread: answers the last of several questions. A
+/// new question cancels measurements and comparisons.
 class HostAnswers {
   public:
     /// Copies what it needs of the state. `wake`: called from its thread when there is an answer.
@@ -27,11 +27,11 @@ class HostAnswers {
     [[nodiscard]] std::uint64_t written() const { return written_; }
     /// A question of a comparison, when there is nothing else to do.
     void compare(LiveQuestion question);
-    /// What became of a comparison's question, once; Cancelled where it gave way.
+    /// Returns the result of a comparison's question, once; Cancelled if another question cancelled it.
     [[nodiscard]] std::optional<Result<LiveAnswer>> takeCompared();
     /// The newest answer, once; nothing where there is no new one.
     [[nodiscard]] std::optional<Result<LiveAnswer>> take();
-    /// The same of clearances: once without and once with areas.
+    /// Returns the distances, once without and once with areas.
     [[nodiscard]] std::optional<Result<LiveClearance>> takeClearance();
 
   private:
@@ -43,7 +43,7 @@ class HostAnswers {
     [[nodiscard]] Result<cpu::Batch> batchOf(const LiveQuestion& question, const std::atomic<bool>& cancel);
     [[nodiscard]] Result<LiveAnswer> answer(const LiveQuestion& question, const std::atomic<bool>& cancel);
     [[nodiscard]] Result<LiveClearance> measure(const LiveQuestion& question);
-    /// The same with areas.
+    /// Adds the areas to the distances.
     [[nodiscard]] Result<LiveClearance> withAreas(const LiveQuestion& question, LiveClearance clearance);
     void follow(const LiveQuestion& question, const std::vector<HoleWrite>& writes);
 
@@ -70,7 +70,7 @@ class HostAnswers {
     std::optional<Result<LiveAnswer>> compared_;
     std::optional<Result<LiveClearance>> clearance_;
     std::atomic<bool> stop_ = false;
-    std::atomic<bool> newer_ = false; ///< there is a question that nobody looks at yet
+    std::atomic<bool> newer_ = false; ///< a question waits
     std::thread thread_;
 };
 

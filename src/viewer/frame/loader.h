@@ -5,10 +5,10 @@
 
 namespace voxtact::view {
 
-/// What is to be read, and made to be shown.
+/// Files to read, and objects to create for the window.
 struct LoadTask {
     std::function<Result<Given>(Progress&)> read; ///< called on the loader's thread
-    std::optional<FileKind> opened;               ///< what was opened beside what is shown; nothing: all is another
+    std::optional<FileKind> opened;               ///< file that was opened in addition; empty: everything is replaced
     std::uint32_t mostSide = 0;                   ///< voxels along a side that are shown; 0: what the device takes
     StageDesc stage;
 };
@@ -21,9 +21,10 @@ struct Loaded {
 };
 
 struct LoadFailure {
-    Error error; ///< Cancelled: nobody wants to hear of it
+    Error error; ///< Cancelled: not reported
     std::optional<FileKind> opened;
-    /// Where only the volume is too large for the device: all that was read, and how much coarser it may fit.
+    /// If only the volume is too large for the device: the data that were read, and how much coarser the volume may
+    /// fit.
     std::unique_ptr<Given> tooLarge;
     std::uint32_t coarser = 1;
 };
@@ -41,11 +42,11 @@ class Loader {
 
     /// Instead of the task before, if that is not done.
     void start(LoadTask task);
-    /// Nothing comes of the task.
+    /// Cancels the task.
     void cancel();
     /// Null while there is no task.
     [[nodiscard]] const Progress* progress() const { return progress_.get(); }
-    /// What became of the task, once.
+    /// Returns the result of the task, once.
     [[nodiscard]] std::optional<std::variant<Loaded, LoadFailure>> take();
     /// Ends a stage that no frame uses any more, on the loader's thread: that may wait.
     void discard(std::unique_ptr<Stage> stage);

@@ -20,7 +20,7 @@ class Pictures {
     [[nodiscard]] Result<void> resize(const Renderer& renderer, const Extent& extent);
     [[nodiscard]] bool fits(const Extent& extent) const;
 
-    /// What a frame adds to the picture of `state`, if anything, and says in it how far the fine one is.
+    /// Records the frame's share of the picture of `state`, if any, and sets the progress of the fine picture.
     [[nodiscard]] Result<void> record(VkCommandBuffer commands, DeviceScene& scene, State& state, std::uint32_t slot);
     /// The times of a slot's frame, which is done.
     void collect(std::uint32_t slot, double wallMilliseconds);
@@ -33,7 +33,7 @@ class Pictures {
   private:
     explicit Pictures(const device::Session& session) : session_(&session) {}
 
-    /// What a slot's frame made.
+    /// Result of a slot's frame.
     struct Made {
         double coarse = 0; ///< pixels
         double fine = 0;

@@ -10,7 +10,7 @@
 /// The window's own Vulkan objects, in addition to those of voxtact: what an embedder has in its engine.
 namespace voxtact::view {
 
-/// Frames that are recorded before the first of them must be done.
+/// Number of frames in flight.
 inline constexpr std::uint32_t kFramesInFlight = 2;
 
 /// An image in device memory with a view of all of it; colour, one mip level.
@@ -55,7 +55,7 @@ class HostBuffer {
     std::span<std::byte> bytes_;
 };
 
-/// What draws the panels and the slices: one texture, some bytes of push constants, any viewport.
+/// Pipeline of the panels and slices: one texture, some bytes of push constants, any viewport.
 struct DrawPipelineDesc {
     std::span<const std::uint32_t> vertexShader;
     std::span<const std::uint32_t> fragmentShader;
@@ -106,7 +106,7 @@ class Textures {
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
 };
 
-/// Both.
+/// Pipeline and descriptor sets.
 struct Drawing {
     [[nodiscard]] static Result<Drawing> create(const device::VulkanDevice& device, const DrawPipelineDesc& desc,
                                                 std::uint32_t mostTextures, VkFilter filter);
@@ -116,7 +116,7 @@ struct Drawing {
     Textures textures;
 };
 
-/// What a memory barrier waits for and lets go on.
+/// One side of a memory barrier: stages and accesses.
 struct BarrierSide {
     VkPipelineStageFlags2 stage = VK_PIPELINE_STAGE_2_NONE;
     VkAccessFlags2 access = VK_ACCESS_2_NONE;
@@ -135,7 +135,7 @@ void layoutBarrier(const device::VulkanDevice& device, VkCommandBuffer commands,
 [[nodiscard]] Result<void> submitAndWait(const device::Session& session,
                                          const std::function<void(VkCommandBuffer)>& record);
 
-/// One colour target, all of it.
+/// One colour target, its whole area.
 void beginRendering(const device::VulkanDevice& device, VkCommandBuffer commands, VkImageView view,
                     VkImageLayout layout, VkExtent2D extent);
 

@@ -95,7 +95,7 @@ SlicePass::Push SlicePass::pushOf(const State& state, std::size_t slice) const {
     std::size_t at = 0;
     for (const ValueRange& range : opaqueRanges(edit.curve, edit.threshold, state.document.domain)) {
         if (at < push.opaque.size()) {
-            // What lies beyond the domain has the opacity of its ends.
+            // Values beyond the domain have the opacity of its ends.
             const bool least = range.lo <= state.document.domain.lo;
             const bool most = range.hi >= state.document.domain.hi;
             push.opaque[at++] = static_cast<float>(least ? std::min(state.values.lo, range.lo) : range.lo);

@@ -14,10 +14,10 @@ class SlicePass {
   public:
     [[nodiscard]] static Result<SlicePass> create(const device::Session& session, const Volume& volume);
 
-    /// Images of those sizes. Where one is another than before nothing may be in flight.
+    /// Creates images of these sizes. If one changes, nothing may be in flight.
     [[nodiscard]] Result<void> resize(const std::array<Extent, 3>& extents);
     [[nodiscard]] bool fits(const std::array<Extent, 3>& extents) const;
-    /// Those that are others than in the frame before.
+    /// Records the slices that differ from the previous frame.
     void record(VkCommandBuffer commands, const State& state);
 
     [[nodiscard]] VkImageView view(std::size_t slice) const { return images_[slice].view(); }

@@ -9,7 +9,7 @@ namespace voxtact::view {
 
 namespace {
 
-/// Drivers compile when something is first drawn. Nobody looks at what this draws and answers.
+/// Drivers compile at the first draw. These results are discarded.
 Result<void> rehearse(const device::Session& session, const State& state, Stage& stage) {
     constexpr VkExtent2D kSmall{16, 16};
     constexpr Extent kShape{16, 16};
@@ -26,7 +26,7 @@ Result<void> rehearse(const device::Session& session, const State& state, Stage&
         return rowOf(state.method.count).host ? Result<void>()
                                               : stage.device->record(commands, *stage.scene, question, 0);
     });
-    // A method that cannot answer is told of when it is asked.
+    // A method that cannot answer is reported when it is used.
     if (!run.ok() && run.error().code == ErrorCode::DeviceLost) {
         return run.error();
     }

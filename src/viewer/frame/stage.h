@@ -10,7 +10,7 @@
 
 namespace voxtact::view {
 
-/// What a stage is made for.
+/// Inputs of a stage.
 struct StageDesc {
     std::function<Lighting(const Grid&)> light; ///< of the fine picture
     std::function<void()> wake;                 ///< called from another thread when there is an answer
@@ -21,7 +21,7 @@ struct StageDesc {
 /// All that belongs to one volume and its meshes, on the device and on the host. Made on any thread while the frames of
 /// another one go on; afterwards it is the frames' own.
 struct Stage {
-    /// The volume that stages are made of. LimitExceeded and OutOfMemory: it is too large for the device.
+    /// Uploads the volume of stages. LimitExceeded and OutOfMemory: it is too large for the device.
     [[nodiscard]] static Result<Volume> upload(const device::Session& session, const VolumeData& volume);
     /// Takes the volume of `state`. Waits for the device, and has drawn and answered once, so that all that is made on
     /// the way is there.
@@ -29,7 +29,7 @@ struct Stage {
                                                                Volume volume, const StageDesc& desc,
                                                                Progress& progress);
 
-    // In the order in which they end, the last first.
+    // Destroyed in reverse order.
     std::unique_ptr<DeviceScene> scene;
     std::optional<DeviceAnswers> device;
     std::unique_ptr<BesideAnswers> beside;

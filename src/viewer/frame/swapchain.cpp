@@ -18,7 +18,7 @@ template <class Function> Function instanceFunction(const device::VulkanDevice& 
     return reinterpret_cast<Function>(desc.getInstanceProcAddr(desc.instance, name));
 }
 
-/// Of a window that lets its client choose, what was asked for.
+/// Returns the requested extent if the window lets its client choose.
 VkExtent2D extentFor(const VkSurfaceCapabilitiesKHR& can, VkExtent2D wanted) {
     if (can.currentExtent.width != std::numeric_limits<std::uint32_t>::max()) {
         return can.currentExtent;

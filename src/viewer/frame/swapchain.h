@@ -17,9 +17,9 @@ class Swapchain {
     Swapchain& operator=(Swapchain&&) = delete;
     ~Swapchain();
 
-    /// Nothing may be in flight. An extent of 0 (a window that is not shown) leaves it without images.
+    /// Nothing may be in flight. With an extent of 0 (a hidden window) there are no images.
     [[nodiscard]] Result<void> resize(VkExtent2D extent);
-    /// Whether the images are the window's still.
+    /// True if the images no longer fit the window.
     [[nodiscard]] bool stale() const noexcept { return stale_; }
     [[nodiscard]] VkFormat format() const noexcept { return format_.format; }
     [[nodiscard]] VkExtent2D extent() const noexcept { return extent_; }

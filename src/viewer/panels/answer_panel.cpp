@@ -66,7 +66,7 @@ void drawStrip(const State& state) {
     }
 }
 
-/// What is touched, as much of it as a line has room for; all of it under the mouse.
+/// Touched structures, shortened to a line; complete in the tooltip.
 void drawLabels(const State& state) {
     if (!state.labels) {
         return;
@@ -192,7 +192,7 @@ void drawContacts(State& state) {
                 ImGui::TextUnformatted(mmText(grid, 1, place).c_str());
             }
             ImGui::TableNextColumn();
-            // None is so long that it is cut off.
+            // No text exceeds its column.
             ImGui::Text(std::abs(contact.value) < 1e5 ? "%.1f" : "%.4g", contact.value);
         }
     }

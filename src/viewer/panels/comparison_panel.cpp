@@ -32,7 +32,7 @@ void drawSaid(const State& state, const ComparedMethod& compared) {
     ImGui::Text("%.2f", compared.answer->milliseconds);
 }
 
-/// Whether it was clicked.
+/// Returns true if clicked.
 bool drawRow(const State& state, const ComparedMethod& compared) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();

@@ -10,7 +10,7 @@ namespace voxtact::view {
 
 namespace {
 
-/// In a picture at that place.
+/// In a picture at that position.
 std::optional<ViewCube> cubeOf(const ImVec2& corner, const ImVec2& size) {
     return cubeIn({static_cast<double>(corner.x), static_cast<double>(corner.y)},
                   {static_cast<double>(size.x), static_cast<double>(size.y)},

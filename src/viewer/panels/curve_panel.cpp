@@ -40,7 +40,7 @@ Chart chartOf(const State& state, const ImVec2& corner, const ImVec2& size) {
     return {corner, size, state.document.domain, axis};
 }
 
-/// As high as the highest bar that is shown.
+/// Scaled to the highest visible bar.
 void drawHistogram(const State& state, const Chart& chart, ImDrawList& list) {
     constexpr std::size_t kMost = 256;
     const Bars bars = barsOf(state.histogram, chart.axis.shown, kMost);
@@ -78,7 +78,7 @@ void drawAxis(const Chart& chart, float height, ImDrawList& list) {
     }
 }
 
-/// What of the values collides is shaded; the threshold is a line.
+/// Shades values whose opacity reaches the threshold, and draws the threshold line.
 void drawThreshold(const State& state, const Chart& chart, ImDrawList& list) {
     const Edit& edit = state.document.edit;
     const float bottom = chart.corner.y + chart.size.y;
@@ -248,7 +248,7 @@ void drawPresets(State& state) {
     ImGui::EndCombo();
 }
 
-/// With what the chart shows at its right end.
+/// With the chart's readings at the right.
 void drawHeading(State& state) {
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     const bool zoomed = state.zoomedRange.has_value();
@@ -302,7 +302,7 @@ void drawChart(State& state) {
 void drawCurve(State& state) {
     drawHeading(state);
     const ImVec2 chart = ImGui::GetCursorPos();
-    // The fields below it first: what is typed is of the point that was chosen until the mouse takes another one.
+    // The fields below first: typed values belong to the chosen point until the mouse chooses another.
     ImGui::SetCursorPosY(chart.y + heightOfChart() + ImGui::GetFontSize() + ImGui::GetStyle().ItemSpacing.y);
     drawChosen(state);
     drawThresholdField(state);

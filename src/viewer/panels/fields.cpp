@@ -12,7 +12,7 @@ namespace voxtact::view {
 
 namespace {
 
-/// What stands in a field that is typed in, which Dear ImGui forgets when another one gets the keyboard.
+/// Text of an edited field, which Dear ImGui drops when another field gets the keyboard.
 struct Typed {
     ImGuiID field = 0; ///< 0: none
     double began = 0;  ///< what stood there at first
@@ -39,8 +39,7 @@ Typing& typing() {
     return all;
 }
 
-/// Whether what is written in a field is a number: Dear ImGui takes the number before for what is none. An operator may
-/// be in front of it.
+/// True if the text is a number; Dear ImGui keeps the previous number otherwise. An operator may precede it.
 bool isNumberIn(ImGuiID item) {
     const ImGuiInputTextState* const state = ImGui::GetInputTextState(item);
     std::string_view text = state != nullptr && state->TextA.Data != nullptr ? state->TextA.Data : "";
@@ -65,8 +64,8 @@ bool takes(const char* label, Number& number, const Draw& draw, const IsTyped& i
     Typing& all = typing();
     const Typed typed = all.now.isOf(item) ? all.now : all.left.isOf(item) ? all.left : Typed{};
     const bool wasTyped = typed.field == item;
-    // Each frame Dear ImGui compares the text with the number as it would be written, and takes what differs for typed:
-    // so the field gets what was typed in it, whatever has become of the number.
+    // Each frame Dear ImGui compares the text with the formatted number and treats a difference as typed, so the field
+    // keeps the typed number, whatever the value is now.
     number = wasTyped ? static_cast<Number>(typed.number) : before;
     const bool edited = draw(number);
     if (isTyped(item)) {
@@ -78,7 +77,7 @@ bool takes(const char* label, Number& number, const Draw& draw, const IsTyped& i
     if (!wasTyped) {
         return edited;
     }
-    // It was left in this frame, or after the one before.
+    // Left in this frame, or after the previous one.
     const bool restored = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
     const bool written = static_cast<double>(number) != typed.began;
     number = written && !restored ? number : before;

@@ -3,8 +3,8 @@
 
 #include "voxtact/data.h"
 
-/// Fields for numbers. What is typed is taken when its field is left or Enter is pressed, and Escape leaves what was
-/// there: half a number is none. What is dragged is taken at once. Each says whether there is another number.
+/// Number fields. Typed numbers apply when the field loses focus or on Enter; Escape restores. Dragging applies
+/// immediately. Each returns true if the number changed.
 namespace voxtact::view {
 
 [[nodiscard]] bool typeNumber(const char* label, double& number, const char* format);

@@ -19,7 +19,7 @@ constexpr const char* kOpen = "Open";
 constexpr const char* kSession = "Save session";
 constexpr const char* kPicture = "Save picture";
 
-/// As wide and high as it was asked for last; 0: nobody asked yet.
+/// Last requested width and height; 0: none yet.
 std::array<int, 2>& pictureSides() {
     static std::array<int, 2> sides{0, 0};
     return sides;
@@ -59,7 +59,7 @@ struct PathDialog {
     std::string replaced{}; ///< a path that is there already, and has been asked about
     bool takesKeyboard = false;
 
-    /// Whether to go on: a file that is there is replaced when that was asked about. Opening replaces nothing.
+    /// Returns true to proceed: an existing file is replaced only after a confirmation. Opening replaces nothing.
     [[nodiscard]] bool mayAct() {
         std::error_code ignored;
         if (title == kOpen || path == written || path == replaced || !std::filesystem::exists(path, ignored)) {
@@ -97,7 +97,7 @@ const char* keyOf(const char* title) {
     return title == kOpen ? "Ctrl+O" : title == kSession ? "Ctrl+S" : title == kPicture ? "Ctrl+P" : nullptr;
 }
 
-/// Those that are pressed.
+/// Pressed buttons.
 struct Buttons {
     bool goOn = false;
     bool cancel = false;
@@ -107,7 +107,7 @@ Buttons drawButtons(const PathDialog& dialog, bool isAsked) {
     Buttons pressed;
     if (isAsked) {
         ImGui::TextColored(verdictColour(2), "It is there already. Replace it?");
-        // Where the other button was: of a double click the second is no answer.
+        // At the position of the other button, so that the second click of a double click answers nothing.
         pressed.cancel = ImGui::Button("cancel");
         ImGui::SameLine();
         pressed.goOn = ImGui::Button("replace");
@@ -119,7 +119,7 @@ Buttons drawButtons(const PathDialog& dialog, bool isAsked) {
     return pressed;
 }
 
-/// With the path that it has. What cannot be is said before there is a question.
+/// Proceeds with the path. Refuses before it asks.
 void goOn(PathDialog& dialog, State& state) {
     Result<void> done = dialog.check != nullptr ? dialog.check(dialog.path, state) : Result<void>();
     if (done.ok() && !dialog.mayAct()) {
@@ -161,8 +161,7 @@ void drawPathDialog(PathDialog& dialog, State& state) {
     const bool isAsked = !dialog.replaced.empty() && dialog.replaced == dialog.path;
     const bool entered = ImGui::InputText("##path", &dialog.path,
                                           ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
-    // By the window's keys: of those Dear ImGui knows only what is down at a frame. One that is held is pressed again
-    // and again for it, which is no answer.
+    // By the window's keys: Dear ImGui knows only keys that are down at a frame, and repeats held keys.
     bool done = state.entered || (entered && !isAsked);
     dialog.takesKeyboard = entered && isAsked;
     if (ImGui::IsItemActive()) {
@@ -199,7 +198,7 @@ void drawFileMenu(State& state) {
     if (ImGui::BeginMenu("Open recent", !state.recent.empty())) {
         for (const std::string& path : state.recent) {
             if (ImGui::MenuItem(path.c_str())) {
-                state.dropped.push_back(path); // opened as what is dropped, after the menu
+                state.dropped.push_back(path); // opened like dropped files, after the menu
             }
         }
         ImGui::EndMenu();

@@ -14,7 +14,7 @@ constexpr float kLength = 5; // heights of a line: an arrow's length
 constexpr float kReach = 6;  // points, scaled()
 constexpr int kRingParts = 48;
 
-/// With the axis in a direction that can be told apart: red, green, blue.
+/// By the direction of the axis: red, green, blue.
 ImU32 colourOf(std::size_t axis, bool taken, int alpha) {
     constexpr std::array<std::array<int, 3>, 3> kAxes{{{235, 100, 90}, {110, 200, 110}, {110, 160, 250}}};
     return taken ? IM_COL32(255, 235, 120, 255) : IM_COL32(kAxes[axis][0], kAxes[axis][1], kAxes[axis][2], alpha);

@@ -36,7 +36,7 @@ void drawPlace(State& state) {
     }
 }
 
-/// The same of how it is turned.
+/// Like drawPlace(), for the rotation.
 void drawAngles(State& state) {
     const Vec3 exact = anglesOf(state.document.edit.pose(), state.typedAngles);
     constexpr double kShown = 100; // parts of a degree

@@ -110,8 +110,8 @@ void drawPanes(State& state, const ImVec2& size) {
     }
 }
 
-/// A child with an edge, which is scrolled or grows with what is in it. `whole`: how high it is with all of that, known
-/// once it was in sight.
+/// A bordered child that scrolls, or grows with its contents. `whole`: height with all contents, known after the first
+/// display.
 template <class Draw> void card(const char* name, float height, float& whole, Draw&& draw) {
     const ImGuiStyle& style = ImGui::GetStyle();
     // One that grows has its height a frame later: until then it is cut, and nothing in it becomes narrower.
@@ -127,7 +127,7 @@ template <class Draw> void card(const char* name, float height, float& whole, Dr
     ImGui::EndChild();
 }
 
-/// How high the cards are with all that is in them, as of the frame before; before the first about as high.
+/// Heights of the cards with all contents, from the previous frame; estimates before the first one.
 struct Heights {
     float answer = ImGui::GetFontSize() * 12;
     float curve = ImGui::GetFontSize() * 14;
@@ -149,14 +149,14 @@ void drawColumn(State& state) {
     const float contacts = kLeastContacts * ImGui::GetTextLineHeightWithSpacing() + 2 * style.WindowPadding.y;
     const float rest =
         ImGui::GetContentRegionAvail().y - whole.answer - whole.curve - contacts - 3 * style.ItemSpacing.y;
-    // Where the window is low the instrument's rows are scrolled, so that some contacts are seen without; where it is
-    // lower still, the column is scrolled, and all cards are whole.
+    // In a low window the instrument's rows scroll, so that some contacts are visible; in a lower one the column
+    // scrolls, and all cards are complete.
     const bool isLow = rest < least;
     const float instrument = isLow ? whole.instrument : std::min(rest, whole.instrument);
     card("answer", whole.answer, whole.answer, [&] { drawAnswer(state); });
     card("curve", whole.curve, whole.curve, [&] { drawCurve(state); });
     card("instrument", instrument, whole.instrument, [&] { drawInstrument(state); });
-    float last = 0; // it has what is left
+    float last = 0; // the remaining height
     card("contacts", isLow ? contacts : 0, last, [&] { drawContacts(state); });
 }
 

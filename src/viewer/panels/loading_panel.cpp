@@ -8,14 +8,14 @@
 
 namespace voxtact::view {
 
-/// At the lower edge, beside what is shown still; in the middle where there is nothing yet.
+/// At the lower edge, beside the contents; in the middle without contents.
 void drawLoading(State& state) {
     if (!state.loading) {
         return;
     }
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const float line = ImGui::GetFontSize();
-    // Not over the panels.
+    // Beside the panels.
     const double middle = state.picture.corner[0] + state.picture.size[0] / 2;
     const ImVec2 at{state.blank ? size.x / 2 : static_cast<float>(middle),
                     state.blank ? size.y / 2 : size.y - 3 * line};

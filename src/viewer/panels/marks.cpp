@@ -65,7 +65,7 @@ float side(const ImVec2& a, const ImVec2& b, const ImVec2& p) {
     return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
 }
 
-/// Of two triangles that share an edge one has the pixels on it.
+/// One of two adjacent triangles owns the pixels on their edge.
 bool owns(const ImVec2& a, const ImVec2& b) {
     return a.y == b.y ? b.x > a.x : b.y < a.y;
 }

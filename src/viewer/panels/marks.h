@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-/// What is drawn over the large picture, in pictures that are saved: without a device, so that any size will do.
+/// Marks over the large picture, for saved pictures of any size: drawn without a device.
 namespace voxtact::view {
 
 /// A copy of triangles of Dear ImGui's, in pixels of a picture, and of the font that they are of.
@@ -24,8 +24,8 @@ struct Marks {
     std::vector<std::uint32_t> indices; ///< three of each triangle
 };
 
-/// Those of a state in a picture of that size, larger as it is larger than the picture in the window. Between
-/// ImGui::NewFrame() and the next one, on the thread of the panels.
+/// Returns the marks of a state in a picture of that size, scaled with it. Between ImGui::NewFrame() and the next one,
+/// on the thread of the panels.
 [[nodiscard]] Marks marksOf(const State& state, const Extent& extent);
 
 /// Draws them over a picture. On any thread.

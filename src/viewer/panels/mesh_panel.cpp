@@ -19,7 +19,7 @@ std::string nameOf(const MeshSource& source) {
     return name.empty() ? source.path : name;
 }
 
-/// How near, or how much of it touches.
+/// Distance, or contact area.
 std::string nearness(const MeshClearance& clearance) {
     const auto& [lo, hi] = clearance.pair.bounds;
     if (std::isinf(lo)) {
@@ -53,7 +53,7 @@ void drawSaid(const State& state, std::size_t mesh) {
     }
 }
 
-/// What becomes of the list, when it is drawn.
+/// Pending changes of the list.
 struct Wish {
     std::optional<std::size_t> choose;
     std::optional<std::size_t> show;

@@ -8,7 +8,7 @@
 
 namespace voxtact::view {
 
-/// From the world to points of the window.
+/// Maps world points to points of the window.
 struct Onto {
     Mat4 clip_from_world;
     ImVec2 corner;

@@ -14,10 +14,10 @@ namespace voxtact::view {
 
 struct Onto;
 
-/// All of them, of the window's whole size. Between ImGui::NewFrame() and ImGui::Render().
+/// Draws all panels, in the whole window. Between ImGui::NewFrame() and ImGui::Render().
 void drawPanels(State& state);
 
-/// Colours, spaces and the font, for a display where a point is so many pixels.
+/// Sets colours, spacing and the font, for a display with this number of pixels per point.
 void applyTheme(float scale, std::span<const unsigned char> font);
 void setColours(Theme theme);
 /// A length on a display where a point is a pixel, on the one that there is: for all that is not as large as text.
@@ -25,34 +25,35 @@ void setColours(Theme theme);
 /// Green, red or yellow for a hitNumber(), on a card of the theme and on a picture.
 [[nodiscard]] ImVec4 verdictColour(int hit);
 [[nodiscard]] ImVec4 verdictOnPicture(int hit);
-/// Of the closest points, and the line between them.
+/// Colour of the closest points, and the line between them.
 [[nodiscard]] ImU32 closestColour(float alpha);
-/// Of a mesh by its number in Sources::meshes: the colour that it has in the picture.
+/// Colour of a mesh in the picture, by its index in Sources::meshes.
 [[nodiscard]] ImVec4 instrumentColour(std::size_t mesh);
-/// Of what is secondary.
+/// Colour of secondary text.
 [[nodiscard]] ImVec4 quietColour();
 inline constexpr ImU32 kContactColour = IM_COL32(255, 90, 50, 255);
 
 // The parts; each inside of a window or child that the layout has begun.
 void drawAnswer(State& state);
 void drawInstrument(State& state);
-/// The list of meshes, with what is said of each; nothing where there is one, which is shown.
+/// Draws the list of meshes with their answers; nothing for a single visible mesh.
 void drawMeshes(State& state);
 void drawCurve(State& state);
 void drawPicture(State& state);
-/// What lies over the picture, but for the handles.
+/// Draws the marks over the picture, except the handles.
 void drawMarks(const State& state, const Onto& onto, ImDrawList& list);
 /// A dialog while a picture is made for a file, with a button that cancels it.
 void drawSaving(State& state);
 /// Handles in the picture: whether they have the mouse. After the picture's item.
 [[nodiscard]] bool takeGizmo(State& state, const ImVec2& corner, const ImVec2& size);
 void drawGizmo(const State& state, const Onto& onto, ImDrawList& list);
-/// The cube of the patient's sides: whether it has the mouse. A click looks at a side of it. After the picture's item.
+/// Draws the cube of the patient's sides; returns true if it has the mouse. A click selects a view. After the picture's
+/// item.
 [[nodiscard]] bool takeCube(State& state, const ImVec2& corner, const ImVec2& size);
 void drawCube(const State& state, const Onto& onto, ImDrawList& list);
-/// Of the letters of the patient's sides, which are large.
+/// Font of the letters of the patient's sides, which are large.
 [[nodiscard]] const ImFont& letterFont();
-/// Whether there are handles, and along whose axes.
+/// Draws the choice of handles and axes.
 void drawGizmoChoice(State& state);
 void drawSlice(State& state, std::size_t slice);
 void drawContacts(State& state);
@@ -61,7 +62,7 @@ void drawComparison(State& state);
 /// Dialogs of files, and their menu.
 void drawFileMenu(State& state);
 void drawDialogs(State& state);
-/// How far it is what is being loaded, and a button that cancels it.
+/// Draws the progress of loading, and a button that cancels it.
 void drawLoading(State& state);
 /// A dialog with a choice, where there is one to make.
 void drawQuestion(State& state);
@@ -71,32 +72,32 @@ void askForFile();
 void askForSession();
 /// Opens the dialog for a picture to save.
 void askForPicture();
-/// What is pressed.
+/// Handles keys.
 void takeKeys(State& state);
 void drawHelp(State& state);
 
 /// A title with a line.
 void heading(const char* text);
-/// A line of text over a picture, with a dark rim: it can be read on what is bright, too.
+/// Adds text over a picture, with a dark rim: readable on bright backgrounds.
 void addRimmed(ImDrawList& list, const ImVec2& at, ImU32 colour, const char* text);
-/// As much of a line as a width has room for, with dots for what is missing.
+/// Shortens a line to a width, with dots.
 [[nodiscard]] std::string shortened(const std::string& text, float width);
 /// The first of some texts that a width has room for; where there is none, the last.
 [[nodiscard]] std::string fitting(std::initializer_list<std::string> texts, float width);
-/// A line that is shortened where it is too long: all of it is under the mouse then.
+/// Draws a line, shortened if too long; complete in the tooltip.
 void shortLine(const ImVec4& colour, const std::string& text);
-/// How wide a button is, or a box to check, with its text.
+/// Width of a button or checkbox with its text.
 [[nodiscard]] float widthOfButton(const char* text);
 [[nodiscard]] float widthOfCheckbox(const char* text);
 /// On with the line where it has room for an item of that width.
 void sameLine(float width);
 /// Clipboard and status line.
 void copyCommand(State& state);
-/// As copyAsCommand() for what is shown.
+/// Like copyAsCommand(), for the contents.
 [[nodiscard]] std::string commandOf(const State& state);
-/// How far the mouse was dragged since the frame before: the way to where a button is pressed is no part of it.
+/// Distance of the drag since the previous frame; excludes motion before the press.
 [[nodiscard]] ImVec2 draggedBy();
-/// Where the mouse is in an item, 0..1 from its upper left corner.
+/// Position of the mouse in an item, 0..1 from its upper left corner.
 [[nodiscard]] Point2 mouseIn(const ImVec2& corner, const ImVec2& size);
 
 } // namespace voxtact::view

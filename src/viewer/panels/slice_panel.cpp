@@ -8,7 +8,7 @@ namespace voxtact::view {
 
 namespace {
 
-/// How far a turn of the wheel goes: a voxel, at least along the axis that is nearest.
+/// Step of the wheel: a voxel, at least along the nearest axis.
 double stepOf(const State& state) {
     return *std::ranges::min_element(state.volume.grid.spacing);
 }
@@ -18,7 +18,7 @@ void takeMouse(State& state, std::size_t slice, const SlicePlace& place, const P
     if (ImGui::IsItemActive() && ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
         state.cursor = worldAt(place, {std::clamp(mouse[0], 0.0, 1.0), std::clamp(mouse[1], 0.0, 1.0)});
     } else if (ImGui::IsItemActive() && ImGui::IsMouseDown(ImGuiMouseButton_Right)) {
-        // To the right more contrast, down brighter: a value is shown as lighter the lower the window lies.
+        // Right: more contrast; down: brighter, because the window moves down.
         constexpr double kShare = 1.0 / 300;
         const ImVec2 by = draggedBy();
         const double width = state.window.hi - state.window.lo;
@@ -62,7 +62,7 @@ void drawMesh(const State& state, const Instrument& instrument, std::size_t slic
     }
 }
 
-/// Where it does not go through the slice it is faint.
+/// Faint where it is outside the slice.
 void drawClosest(const State& state, std::size_t slice, const SlicePlace& place, const Rect& rect, ImDrawList& list) {
     const MeshClearance* clearance = state.chosenClearance();
     const auto segment = clearance != nullptr ? closestSegment(clearance->pair) : std::nullopt;
@@ -80,7 +80,7 @@ void drawClosest(const State& state, std::size_t slice, const SlicePlace& place,
     list.AddCircleFilled(to, scaled(2.5F), colour);
 }
 
-/// Where the slice is, in words that have room. Returns how far they reach, to the right and down.
+/// Draws the position of the slice as text that fits. Returns its size, to the right and down.
 ImVec2 drawCaption(const State& state, const SliceKind& kind, const Rect& rect, ImDrawList& list) {
     const std::string place = mmText(state.volume.grid, 1, state.cursor[kind.axis]);
     const std::string name = kind.name;

@@ -81,7 +81,7 @@ void applyTheme(float scale, std::span<const unsigned char> font) {
     style.PopupRounding = 5;
     style.WindowBorderSize = 0;
     style.ScaleAllSizes(scale);
-    // How far a hand trembles.
+    // Tolerance for small motions of a click.
     ImGui::GetIO().MouseDragThreshold *= scale;
     ImGui::GetIO().MouseDoubleClickMaxDist *= scale;
     // Pairs of the first and the last, ended by a zero; the atlas reads them later.

@@ -46,7 +46,7 @@ view::WindowDesc windowDesc(const ViewerOptions& options) {
     return desc;
 }
 
-/// The files of what is shown, and how it is answered where nothing says so.
+/// Adds readers of the files, and the default method.
 void addReaders(view::WindowDesc& desc, const ViewerOptions& options, const std::string& device) {
     const auto given = [device, standard = desc.method](Result<Opened> files,
                                                         const device::Session& session) -> Result<view::Given> {

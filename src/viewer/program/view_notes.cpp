@@ -9,7 +9,7 @@ namespace voxtact::app {
 
 namespace {
 
-/// By the curve, however it was chosen or came back.
+/// By the curve, whatever its source.
 std::string noteOfPreset(const view::State& state) {
     for (const LookPreset& preset : lookPresets()) {
         const Result<Look> look = lookNamed(preset.name, state.values);

@@ -8,8 +8,8 @@
 
 namespace voxtact::app {
 
-/// What strikes in what the window shows, as the commands would note it: the size of meshes that are there, a preset's
-/// curve over values that are no Hounsfield units, a curve under which nothing is opaque.
+/// Returns notes on the contents, like the commands: the size of meshes, a preset's curve on values that are not
+/// Hounsfield units, a curve without opaque values.
 [[nodiscard]] std::vector<std::string> windowNotes(const view::State& state);
 
 } // namespace voxtact::app

@@ -17,20 +17,13 @@ namespace voxtact::app {
 namespace {
 
 constexpr const char* kViewFooter =
-    R"(A window with the volume, meshes in it, three slices, and the answer to whether they touch, which follows every
-change of pose and transfer function. --mesh may be repeated: each mesh has a pose of its own, at first the first of
---poses. F1 shows keys and mouse. Without --volume and --session: the builtin head and scalpel. Needs a display (X11)
-and a Vulkan driver that can show pictures on it.
-
---device cpu: the host engine answers, whatever draws. By default the GPU answers where there is one that can, else the
-host. --method and --projection choose another way, and so does the list under the answer.
-
---report-state PATH: a JSON file, written anew after each answer: touch (0, 1, or 2 for undecided), count, method,
-projection, pose (16 numbers, row by row), labels, command (a line for a shell that gives the same answer) and more.
+    R"(Shows the volume, the meshes and three slices, and whether they touch after each
+change. F1 shows keys and mouse. Default: the builtin head and scalpel.
+Needs an X11 display and a Vulkan driver. --device cpu answers on the host.
 
 Examples:
   voxtact view
-  voxtact view --volume head.nii.gz --preset mr --mesh tool.stl --poses poses.txt
+  voxtact view --volume head.nii.gz --preset mr --mesh tool.stl
   voxtact view --session session.json)";
 
 std::vector<const char*> curvePresetNames() {
@@ -153,38 +146,39 @@ void addViewerOptions(CLI::App& parser, ViewerOptions& options) {
     addVolumeOption(parser, options.volumes);
     parser.get_option("--volume")->required(false);
     addMeshOptions(parser, options.meshes, false);
-    addPath(parser, "--poses", options.poses,
-            "a world_from_object matrix a line: 16 numbers, row by row; the first is shown; default: the identity");
+    addPath(parser, "--poses", options.poses, "4x4 matrices, 16 numbers per line; default: identity");
     addTransferFunctionOptions(parser, options.transferFunction);
     addTableOptions(parser, options.transferFunction);
     addName(parser, "--preset", options.preset, curvePresetNames(),
-            "colours, and the opacity where none is given, as of voxtact render");
-    addPath(parser, "--labels", options.labels, "a label map (an image of whole numbers): names what is touched");
+            "colours and default opacity, as for voxtact render");
+    addPath(parser, "--labels", options.labels, "label map, for the names of touched structures");
     addPath(parser, "--label-names", options.labelNames,
-            "lines 'number name'; default: the label map's path without .gz, with .txt, where that file is");
+            "lines 'number name'; default: the label map's path with .txt");
     addMethodOptions(parser, options.method);
     for (const char* fixed : {"--samples-per-voxel", "--resolution", "--filter", "--boundary"}) {
         parser.remove_option(parser.get_option(fixed));
     }
     addDeviceOptions(parser, options.device);
-    addPath(parser, "--session", options.session, "opens what File, Save session has written");
+    addPath(parser, "--session", options.session, "session file, from File, Save session");
     for (const char* other :
          {"--volume", "--mesh", "--mesh-space", "--mesh-scale", "--poses", "--transfer-function", "--opacity",
           "--tf-domain", "--tf-size", "--opacity-threshold", "--preset", "--labels", "--label-names"}) {
         parser.get_option("--session")->excludes(parser.get_option(other));
     }
-    addPath(parser, "--report-state", options.reportState, "a JSON file, rewritten after each answer");
+    addPath(parser, "--report-state", options.reportState,
+            "JSON file, rewritten after each answer: touch, count, method, projection, pose, labels, command");
     addWholeNumber(
         parser, "--frames", [&options](std::uint32_t frames) { options.frames = frames; }, {.least = 1},
-        "ends by itself after so many frames; default: when it is closed", 0);
+        "end after N frames; 0: when the window is closed", 0);
     addWholeNumber(
         parser, "--volume-side", [&options](std::uint32_t side) { options.mostSide = side; }, {.least = 2},
-        "most voxels along a side of a volume; a coarser copy of a larger one is offered; default: what the device "
-        "takes",
-        0);
+        "maximum voxels along a side; larger volumes are offered as a coarser copy; 0: the device's limit", 0);
     addSize(
-        parser, [&options](const VkExtent2D& size) { options.size = size; }, "of the window, in points",
+        parser, [&options](const VkExtent2D& size) { options.size = size; }, "window, in points",
         std::to_string(options.size.width) + "x" + std::to_string(options.size.height));
+    for (const char* rare : {"--label-names", "--report-state", "--frames", "--volume-side"}) {
+        setRare(parser, rare);
+    }
 }
 
 Result<void> checkViewerOptions(const ViewerOptions& options) {

@@ -30,13 +30,13 @@ struct ViewerOptions {
 /// Adds the command `view`.
 [[nodiscard]] Command addView(CLI::App& program);
 void addViewerOptions(CLI::App& parser, ViewerOptions& options);
-/// Refuses a file that the window is to write and that is one of those that it has read.
+/// Refuses an output of the window that is one of its inputs.
 [[nodiscard]] Result<void> checkWindowOutput(const std::filesystem::path& output,
                                              const std::vector<std::string>& inputs);
-/// What a parser cannot see.
+/// Checks that a parser cannot make.
 [[nodiscard]] Result<void> checkViewerOptions(const ViewerOptions& options);
 
-/// What is shown at first, with volume and mesh read.
+/// Initial contents, with volume and mesh read.
 struct Opened {
     view::Document document;
     VolumeData volume;
@@ -48,7 +48,7 @@ struct Opened {
 [[nodiscard]] Result<Opened> openDocument(const ViewerOptions& options, view::Progress& progress);
 /// The session alone, answered as the options say.
 [[nodiscard]] Result<view::Document> sessionOf(const ViewerOptions& options);
-/// The same as openDocument() of what is wanted while the window is there.
+/// Like openDocument(), for files opened in the window.
 [[nodiscard]] Result<Opened> openWanted(const view::Wanted& wanted, view::Progress& progress);
 
 } // namespace voxtact::app

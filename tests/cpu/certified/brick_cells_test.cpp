@@ -211,7 +211,7 @@ TEST(BrickCellsTest, OfABlockAreThoseOfItsBricks) {
     for (int round = 0; round < 100 && !HasFailure(); ++round) {
         const FlatScene scene(random);
         const cpu::VolumeImpl& volume = scene.volume->impl();
-        cpu::BlockLook look(volume, *scene.occupancy);
+        cpu::BlockLookup look(volume, *scene.occupancy);
         for (int i = 0; i < 200; ++i) {
             const cpu::CellBlock block = drawnBlock(random, volume.image.size, scene.occupancy->bricks());
             unsigned mayBe = 0;

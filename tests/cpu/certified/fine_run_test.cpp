@@ -86,7 +86,7 @@ void look(const SmallRun& run, FineRun& small) {
     for (const Vertices& of : run.triangles) {
         small.add(of[0], of[1], of[2]);
     }
-    small.look(run.item, bricksOf(run.item));
+    small.test(run.item, bricksOf(run.item));
 }
 
 bool isIn(const VoxelPoint& point, const std::array<std::int32_t, 3>& cell) {

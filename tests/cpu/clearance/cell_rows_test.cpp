@@ -2,7 +2,7 @@
 // Cells and pieces of cells in rows, for vectors: against what does the same one by one, and against points.
 #include "cpu/scenes/engine_fixture.h"
 #include "cpu/scenes/random_scene.h"
-#include "host/search/cells/cell_sieve.h"
+#include "host/search/cells/cell_culling.h"
 #include "host/search/cells/cell_walk.h"
 #include "host/search/cells/piece_rows.h"
 #include "host/search/closest_point.h"
@@ -131,8 +131,8 @@ TEST(NearCells, AreThoseThatMayBeOpaqueAndAreNearer) {
         }
         const double within = uniform(random, 0, 3);
         byEveryInstructionSet([&](const char* name) {
-            cpu::SievedCells out;
-            cpu::sieveNear({known, box, squares, within}, out);
+            cpu::RemainingCells out;
+            cpu::cullNear({known, box, squares, within}, out);
             for (std::int32_t z = box.lo[2]; z <= box.hi[2]; ++z) {
                 for (std::int32_t y = box.lo[1]; y <= box.hi[1]; ++y) {
                     const auto number = static_cast<std::size_t>(y + cpu::kBrickSide * z);

@@ -81,7 +81,7 @@ bool CellPiece::mayBeOpaque(const OpaqueIntervals& intervals) noexcept {
 
 PieceBounds CellPiece::bounds(const VolumeSpace& space) const noexcept {
     const dvec3 slope{terms_[kX], terms_[kY], terms_[kZ]};
-    // What the linear part may differ from the interpolant.
+    // Maximum difference of the linear part and the interpolant.
     const double bent = std::abs(terms_[kX + kY]) + std::abs(terms_[kX + kZ]) + std::abs(terms_[kY + kZ]) +
                         std::abs(terms_[kX + kY + kZ]) + error_;
     return {space.toWorld(middle_),
@@ -93,8 +93,8 @@ PieceBounds CellPiece::bounds(const VolumeSpace& space) const noexcept {
             std::abs(slope.x) + std::abs(slope.y) + std::abs(slope.z)};
 }
 
-/// The least of dot(w, s) in the cube from -1 to 1: a plane times any multiplier of its sign gives a bound (weak
-/// duality), and the greatest is at one of those that are tried, or without a plane.
+/// Minimum of dot(w, s) in the cube from -1 to 1: a plane times any multiplier of its sign gives a bound (weak
+/// duality). The maximum is at one of the tested multipliers, or without a plane.
 double PieceBounds::least(const VolumeSpace& space, const dvec3& normal) const noexcept {
     const dvec3 w = (normal * space.local_from_voxel) * half;
     double best = -(std::abs(w.x) + std::abs(w.y) + std::abs(w.z));
@@ -104,7 +104,7 @@ double PieceBounds::least(const VolumeSpace& space, const dvec3& normal) const n
         const dvec3 left = w - multiplier * slope;
         const double bound = multiplier * plane - (std::abs(left.x) + std::abs(left.y) + std::abs(left.z)) -
                              kSumError * std::abs(multiplier) * (std::abs(plane) + size);
-        // Not for NaN either.
+        // False for NaN, too.
         if (bound > best) {
             best = bound;
         }

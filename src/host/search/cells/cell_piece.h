@@ -17,7 +17,7 @@ using Trilinear = std::array<double, 8>;
 
 /// `corners`: corner (x, y, z) at x + 2 * y + 4 * z.
 [[nodiscard]] Trilinear trilinearOf(const std::array<double, 8>& corners) noexcept;
-/// The same interpolant in a box within: its middle and half its sides, in the coordinates of the first.
+/// Returns the same interpolant in an inner box: its middle and half sides, in the coordinates of the outer box.
 [[nodiscard]] Trilinear within(const Trilinear& whole, const glm::dvec3& middle, const glm::dvec3& half) noexcept;
 [[nodiscard]] inline double valueAt(const Trilinear& whole, const glm::dvec3& at) noexcept {
     const double v00 = whole[0] + at.x * whole[1];
@@ -32,11 +32,11 @@ using Trilinear = std::array<double, 8>;
             whole[4] + at.x * whole[5] + at.y * (whole[6] + at.x * whole[7])};
 }
 
-/// Of sums like those of PieceBounds::least(), relative to their largest terms.
+/// Relative error of sums like those of PieceBounds::least(), of their largest terms.
 inline constexpr double kSumError = 0x1p-46;
 
-/// A box of voxel space, and two planes that what is opaque in it lies between: in the box's coordinates s from -1 to 1
-/// dot(slope, s) is no less than `from` and no more than `to`.
+/// A box of voxel space, and two planes that enclose its opaque points: in the box's coordinates s from -1 to 1,
+/// dot(slope, s) is from `from` to `to`.
 struct PieceBounds {
     glm::dvec3 middle{}; ///< local
     glm::dvec3 half{};   ///< voxels
@@ -50,7 +50,7 @@ struct PieceBounds {
     [[nodiscard]] double least(const VolumeSpace& space, const glm::dvec3& normal) const noexcept;
 };
 
-/// A box of voxel space, of one cell, and what is opaque in it.
+/// A box of voxel space in one cell, with bounds of its opaque points.
 class CellPiece {
   public:
     /// `cell`: of the interpolant of the whole cell, whose values may be off by `error`. `middle` and
@@ -58,24 +58,24 @@ class CellPiece {
     CellPiece(const Trilinear& cell, double error, const glm::dvec3& cellMiddle, const glm::dvec3& middle,
               const glm::dvec3& half) noexcept;
 
-    /// Whether some point of it may be opaque. Before all that follows.
+    /// Returns true if some point may be opaque. Call it before the functions below.
     [[nodiscard]] bool mayBeOpaque(const OpaqueIntervals& intervals) noexcept;
     [[nodiscard]] bool allOpaque(const OpaqueIntervals& intervals) const noexcept {
         return intervals.contain(lo_, hi_);
     }
-    /// Whether some point of it certainly is: by the values at its corners, or those between them.
+    /// Returns true if some point is certainly opaque: by the values at the corners, and between them.
     [[nodiscard]] bool someOpaque(const OpaqueIntervals& intervals) const noexcept {
         const double twice = 2 * error_;
         return intervals.certainlyMeet(lo_ + twice, hi_ - twice) || intervals.contain(lo_, lo_ + twice) ||
                intervals.contain(hi_ - twice, hi_);
     }
-    /// Where in it something may be opaque.
+    /// Returns bounds of the points that may be opaque.
     [[nodiscard]] PieceBounds bounds(const VolumeSpace& space) const noexcept;
-    /// Where the interpolant grows fastest, world.
+    /// Returns the direction of steepest ascent of the interpolant, world.
     [[nodiscard]] glm::dvec3 ascent(const VolumeSpace& space) const noexcept;
-    /// Whether the interpolant changes by less than it may be off: dividing the piece decides no more.
+    /// Returns true if the interpolant varies by less than its error: division is then useless.
     [[nodiscard]] bool isFlat() const noexcept { return !(hi_ - lo_ > 4 * error_); }
-    /// Of the interpolant in the piece, its error included.
+    /// Range of the interpolant in the piece, including its error.
     [[nodiscard]] double lo() const noexcept { return lo_; }
     [[nodiscard]] double hi() const noexcept { return hi_; }
 

@@ -62,14 +62,14 @@ HWY_INLINE PointV gradientsAt(const CellsV& cells, const PointV& at) {
             onLine(at.y, onLine(at.x, t[4], t[5]), onLine(at.x, t[6], xyz))};
 }
 
-/// Of the walks that go on: which have arrived, and what is still missing where others are.
-struct Looked {
+/// Active walks: those that have arrived, and the missing value elsewhere.
+struct WalkState {
     unsigned arrived = 0;
     unsigned left = 0;
     DoubleV missing;
 };
 
-HWY_INLINE Looked look(const OpaqueIntervals& intervals, DoubleV value, DoubleV error, unsigned walking) {
+HWY_INLINE WalkState stateOf(const OpaqueIntervals& intervals, DoubleV value, DoubleV error, unsigned walking) {
     constexpr double kBeyond = 1.5;
     const Doubles d;
     alignas(kRowAlignment) Lanes values;
@@ -77,7 +77,7 @@ HWY_INLINE Looked look(const OpaqueIntervals& intervals, DoubleV value, DoubleV 
     alignas(kRowAlignment) Lanes missing{};
     hn::Store(value, d, values.data());
     hn::Store(error, d, errors.data());
-    Looked out;
+    WalkState out;
     for (; walking != 0; walking &= walking - 1) {
         const auto i = static_cast<std::size_t>(std::countr_zero(walking));
         const unsigned bit = 1U << i;
@@ -118,17 +118,17 @@ void walkToOpaque(const WalkJob& job, const PieceRows& rows, WalkRows& out) {
         unsigned arrived = 0;
         for (int step = 0;; ++step) {
             const DoubleV value = valuesAt(cells, at);
-            const Looked looked = look(job.intervals, value, cells.error, walking);
-            arrived |= looked.arrived;
-            if (step == kMostSteps || looked.left == 0) {
+            const WalkState state = stateOf(job.intervals, value, cells.error, walking);
+            arrived |= state.arrived;
+            if (step == kMostSteps || state.left == 0) {
                 break;
             }
             const PointV gradient = two * gradientsAt(cells, at);
             const PointV direction = times(job.space.direction_from_gradient, gradient);
             const DoubleV slope = dot(gradient, direction);
-            const DoubleM goes = hn::And(maskOf(looked.left), hn::Gt(slope, hn::Zero(d)));
+            const DoubleM goes = hn::And(maskOf(state.left), hn::Gt(slope, hn::Zero(d)));
             walking = bitsOf(goes);
-            const DoubleV way = hn::Div(hn::Mul(two, looked.missing), slope);
+            const DoubleV way = hn::Div(hn::Mul(two, state.missing), slope);
             at = choose(goes, clamped(at + way * direction, lo, hi), at);
         }
         const PointV off = times(job.space.local_from_voxel, middle + half * at) - all(job.from);

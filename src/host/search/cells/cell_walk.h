@@ -10,7 +10,7 @@
 
 namespace voxtact::cpu {
 
-/// From where cells are walked through.
+/// Starting points of walks through cells.
 struct WalkJob {
     const OpaqueIntervals& intervals;
     const VolumeSpace& space;
@@ -18,7 +18,7 @@ struct WalkJob {
     glm::dvec3 voxel{}; ///< the same, centred voxel coordinates
 };
 
-/// Where walks have ended.
+/// End points of walks.
 struct alignas(kRowAlignment) WalkRows {
     std::array<PieceRows::Row, 3> at{}; ///< the cells' coordinates from -1 to 1
     PieceRows::Row distance{};          ///< mm from where they began; infinite where nothing is certainly opaque

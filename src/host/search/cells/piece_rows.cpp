@@ -61,7 +61,7 @@ HWY_INLINE TermsV pieceTermsAt(const PieceRows& rows, std::size_t first) {
     return terms;
 }
 
-/// As OpaquePart::cell() does it.
+/// Vectorised OpaquePart::cell().
 void makeTerms(PieceRows& rows) {
     const Doubles d;
     const DoubleV half = all(0.5);
@@ -86,7 +86,7 @@ void makeTerms(PieceRows& rows) {
     }
 }
 
-/// As the constructor of CellPiece does it.
+/// Vectorised constructor of CellPiece.
 void findRanges(PieceRows& rows) {
     const Doubles d;
     for (std::size_t first = 0; first < rows.count; first += hn::Lanes(d)) {
@@ -134,7 +134,7 @@ HWY_INLINE PieceV boundsAt(const PieceRows& rows, const VolumeSpace& space, std:
             sum(abs(slope))};
 }
 
-/// Of some points the one that is farthest along the normal in each lane.
+/// In each lane, the farthest of some points along the normal.
 struct FarthestV {
     DoubleV along;
     PointV corner;
@@ -160,7 +160,7 @@ HWY_INLINE FarthestV farthestOf(const PointList& corners, const PointV& normal) 
              hn::GatherIndex(d, corners.z.data(), at)}};
 }
 
-/// How far they are along a direction of each.
+/// Distance along one direction per lane.
 HWY_INLINE DoubleV apartAlong(const PieceJob& job, const PieceV& pieces, const PointV& normal, DoubleV farthest) {
     return apart(leastOf(pieces, job.space, normal), farthest, normal, job.error);
 }
@@ -174,9 +174,9 @@ HWY_INLINE DoubleV apartAlong(const PieceJob& job, const PieceV& pieces, const P
     return apartAlong(job, pieces, normal, farthest);
 }
 
-/// From about the closest point of the triangles' hull to a piece, after a direction from some point of it along which
-/// `farthest` is the farthest corner: from the closest point of the segment between the two, as in the algorithm of
-/// Gilbert, Johnson and Keerthi (1988).
+/// Returns the direction from about the closest point of the triangles' hull to a piece, given a direction from one of
+/// its points along which `farthest` is the farthest corner: uses the closest point of the segment between the two, as
+/// in the algorithm of Gilbert, Johnson and Keerthi (1988).
 HWY_INLINE PointV refined(const PieceV& pieces, const PointV& normal, const PointV& farthest) {
     const PointV side = farthest - (pieces.middle - normal);
     const DoubleV square = dot(side, side);
@@ -184,7 +184,7 @@ HWY_INLINE PointV refined(const PieceV& pieces, const PointV& normal, const Poin
     return offSegment(normal, side, inverse);
 }
 
-/// Whether a piece is large for its distance, so that all of it is not in about the same direction.
+/// True if a piece is large for its distance, so that directions to its points differ.
 HWY_INLINE DoubleM isNear(const VolumeSpace& space, const PieceV& pieces, const PointV& normal) {
     constexpr double kHalves = 10;
     const PointV half = all(space.spacing) * pieces.half;
@@ -204,7 +204,7 @@ void findApart(const PieceJob& job, PieceRows& rows) {
         const PointV normal = offTriangle(triangle, inverse, pieces.middle);
         const FarthestV far = farthestOf(job.corners, normal);
         DoubleV lo = apartAlong(job, pieces, normal, far.along);
-        // What becomes of a piece must not depend on its neighbours in a vector.
+        // The result of a piece must not depend on its neighbours in a vector.
         DoubleM left = hn::Lt(lo, all(job.cut));
         if (!hn::AllFalse(d, left)) {
             lo = hn::IfThenElse(left, greater(apartAlong(job, pieces, refined(pieces, normal, far.corner)), lo), lo);
@@ -212,7 +212,7 @@ void findApart(const PieceJob& job, PieceRows& rows) {
             left = hn::And(left, isNear(job.space, pieces, normal));
         }
         if (!hn::AllFalse(d, left)) {
-            // Where the interpolant grows fastest.
+            // Direction of steepest ascent of the interpolant.
             const PointV gradient{hn::Div(pieces.slope.x, pieces.half.x), hn::Div(pieces.slope.y, pieces.half.y),
                                   hn::Div(pieces.slope.z, pieces.half.z)};
             const PointV ascent = times(gradient, job.space.voxel_from_local);

@@ -30,7 +30,7 @@ struct alignas(kRowAlignment) PieceRows {
 
     /// Adds a piece of a cell. Expects fewer than the most.
     void add(const PartCell& cell, const PiecePlace& place) noexcept;
-    /// Where in its cell a piece is, in the cell's coordinates.
+    /// Sets the position of a piece, in its cell's coordinates.
     void setPiece(std::size_t number, const glm::dvec3& pieceMiddle, const glm::dvec3& pieceHalf) noexcept {
         for (int axis = 0; axis < 3; ++axis) {
             middle[static_cast<std::size_t>(axis)][number] = pieceMiddle[axis];
@@ -39,13 +39,13 @@ struct alignas(kRowAlignment) PieceRows {
     }
 };
 
-/// What a piece is measured against: some triangles, by the closest one and all of their corners. Not swept.
+/// Triangles to measure pieces against, by the closest one and all of their corners. Not swept.
 struct PieceJob {
     const PlacedCluster& triangles;
     std::size_t nearest = 0; ///< of the triangles
     const PointList& corners;
     const VolumeSpace& space;
-    double cut = 0;   ///< mm: what is not nearer need not be known better
+    double cut = 0;   ///< mm: no better precision is needed from this distance on
     double error = 0; ///< DistanceError::absolute
 };
 

@@ -133,12 +133,12 @@ HWY_INLINE InverseV inversesOf(const TriangleV& triangle) {
             hn::IfThenElseZero(flat, hn::Div(one, square))};
 }
 
-/// How far its farthest corner is along a normal.
+/// Reach of the farthest corner along a normal.
 HWY_INLINE DoubleV reach(const PointV& normal, const TriangleV& triangle) {
     return greater(greater(dot(normal, triangle.a), dot(normal, triangle.b)), dot(normal, triangle.c));
 }
 
-/// From about the closest point of a segment, along `side` from 0, to `to`.
+/// Returns the vector from about the closest point of a segment, along `side` from 0, to `to`.
 HWY_INLINE PointV offSegment(const PointV& to, const PointV& side, DoubleV inverse) {
     const DoubleV part = hn::Mul(dot(to, side), inverse);
     return to - lesser(greater(part, hn::Zero(Doubles())), all(1.0)) * side;
@@ -148,8 +148,8 @@ HWY_INLINE PointV shorter(const PointV& a, const PointV& b) {
     return choose(hn::Lt(dot(a, a), dot(b, b)), a, b);
 }
 
-/// From about the closest point of a triangle to a point: of the foot on its plane where that is inside, else of its
-/// sides.
+/// Returns the vector from about the closest point of a triangle to a point: from its projection on the plane if that
+/// is inside, else from the sides.
 HWY_INLINE PointV offTriangle(const TriangleV& triangle, const InverseV& inverse, const PointV& point) {
     const DoubleV zero = hn::Zero(Doubles());
     const PointV ab = triangle.b - triangle.a;
@@ -170,8 +170,8 @@ HWY_INLINE DoubleV below(DoubleV distance, double error) {
     return greater(hn::Sub(hn::Mul(distance, all(1 - DistanceError::kRelative)), all(error)), hn::Zero(Doubles()));
 }
 
-/// How far what is no less than `least` along a normal is at least from what reaches so far, mm; 0 where the normal is
-/// too short to say.
+/// Lower bound, mm, of the distance along a normal between a set with minimum `least` and one with maximum `reach`; 0
+/// if the normal is too short.
 HWY_INLINE DoubleV apart(DoubleV least, DoubleV reach, const PointV& normal, double error) {
     constexpr double kLeastSquare = 1e-280;
     const DoubleV square = dot(normal, normal);

@@ -6,9 +6,9 @@
 
 namespace voxtact::cpu {
 
-/// How far vertices of a mesh may be from where they are, each for itself: object units.
+/// Maximum displacement of each vertex of a mesh: object units.
 struct VertexReach {
-    std::vector<std::vector<double>> boxes; ///< by level and node of the mesh's tree: the most of what is in each
+    std::vector<std::vector<double>> boxes; ///< maximum in each node, by level and node of the mesh's tree
     std::vector<double> vertices;           ///< as MeshImpl::x
     double most = 0;                        ///< of all
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "host/search/cells/volume_boxes.h"
-#include "host/search/cells/cell_sieve.h"
+#include "host/search/cells/cell_culling.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -31,7 +31,7 @@ void VolumeBoxes::begin(const VolumeImpl& volume, const OpaquePart& part, const 
     error_ = error;
 }
 
-/// Of cells, both ends inclusive, as far as they are in the domain.
+/// Sets the box of cells in the domain, both ends inclusive.
 void VolumeBoxes::set(const NodePlace& first, const NodePlace& last, OpaqueBox& box) const {
     for (int axis = 0; axis < 3; ++axis) {
         const auto at = static_cast<std::size_t>(axis);

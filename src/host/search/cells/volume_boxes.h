@@ -17,7 +17,7 @@ struct CellCube {
     std::uint8_t shift = 0;
 };
 
-/// A box in centred voxel coordinates, and in bricks and smaller boxes which cells of it may be opaque.
+/// A box in centred voxel coordinates, with the bricks and smaller boxes that contain its cells that may be opaque.
 struct OpaqueBox {
     glm::dvec3 lo{};
     glm::dvec3 hi{};
@@ -32,29 +32,29 @@ struct OpaqueBox {
 /// One thread's.
 class VolumeBoxes {
   public:
-    /// `searched`: of that part; `error`: of what is measured. All must live until the next call.
+    /// `searched`: the searched region; `error`: of the distances. All must live until the next call.
     void begin(const VolumeImpl& volume, const OpaquePart& part, const SearchedPart& searched,
                const DistanceError& error) noexcept;
 
-    /// The whole cube, as far as it is in the volume; false outside of that, and where nothing is opaque.
+    /// Returns the part of a cube in the volume; false outside it, and without opaque cells.
     [[nodiscard]] bool whole(const CellCube& cube, OpaqueBox& box) const;
     /// The part of a cube, of a brick or less, that may hold opaque cells; false where there is none.
     [[nodiscard]] bool narrow(const CellCube& cube, OpaqueBox& box) const;
-    /// As much of it as may hold something opaque; false where there is none.
+    /// Returns the part of a cube that may be opaque; false if there is none.
     [[nodiscard]] bool opaque(const CellCube& cube, OpaqueBox& box) const {
         return whole(cube, box) && (cube.shift > kBrickShift || narrow(cube, box));
     }
 
     /// The least dot product of an opaque point with a normal.
     [[nodiscard]] double least(const OpaqueBox& box, const glm::dvec3& normal) const;
-    /// How far it is from a box of centred voxel coordinates.
+    /// Returns the distance from a box of centred voxel coordinates.
     [[nodiscard]] double gap(const OpaqueBox& box, const glm::dvec3& lo, const glm::dvec3& hi) const {
         const glm::dvec3 off = glm::max(glm::max(box.lo - hi, lo - box.hi), glm::dvec3(0));
         return error_.below(glm::length(off * part_->space.spacing));
     }
-    /// How far along a direction: `reach` is how far something of the mesh is along it.
+    /// Returns the distance along a direction; `reach`: maximum of the mesh along it.
     [[nodiscard]] double apart(const OpaqueBox& box, const Direction& along, double reach) const;
-    /// The same of all of the box, which is soon known.
+    /// Like apart(), for the whole box; faster.
     [[nodiscard]] double wholeApart(const OpaqueBox& box, const Direction& along, double reach) const;
 
   private:

@@ -21,8 +21,8 @@ double norm(const dmat3& m) {
     return std::sqrt(dot(m[0], m[0]) + dot(m[1], m[1]) + dot(m[2], m[2]));
 }
 
-/// No more than the least stretch of a vector by the matrix: by the circles of Gershgorin around the eigenvalues of its
-/// square, or by the norm of its inverse.
+/// Lower bound of the stretch of a vector by the matrix: by Gershgorin circles around the eigenvalues of its square, or
+/// by the norm of its inverse.
 double leastStretch(const dmat3& m, const dmat3& inverse) {
     double least = 1e300;
     for (int i = 0; i < 3; ++i) {

@@ -27,7 +27,7 @@ class VolumeSpace {
     glm::dvec3 reach{};   ///< half the domain, in voxels
     glm::dvec3 spacing{}; ///< times what the grid's directions shrink at most: a step of w voxels is no shorter than
                           ///< the length of spacing * w
-    double magnitude = 0; ///< mm: no coordinate of the volume, nor a term of it, is larger
+    double magnitude = 0; ///< mm: upper bound of the volume's coordinates and their terms
     double condition = 1; ///< by so much rounding grows where voxel_from_local is used
 };
 

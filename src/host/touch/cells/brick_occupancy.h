@@ -8,9 +8,8 @@
 
 namespace voxtact::cpu {
 
-/// Which boxes of texture space may have an opaque sample, however the device filters: a box of bricks in eight
-/// look-ups. A snapshot of the volume.
-/// Thread-safety: const functions are safe from any thread.
+/// Finds boxes of texture space that may have an opaque sample, whatever the device's filtering: a box of bricks in
+/// eight lookups. A snapshot of the volume. Thread-safety: const functions are safe from any thread.
 class BrickOccupancy {
   public:
     /// `tolerance`, in stored units, is what the filter may be off by in addition to its weights: kEightBitFilterError.

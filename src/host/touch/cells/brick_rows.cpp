@@ -10,7 +10,7 @@ namespace {
 
 using Piece = BrickRows::Piece;
 
-/// What of a piece is on one side of a plane across an axis: `sign` times the coordinate is no more than `most`.
+/// Returns the part of a piece on one side of a plane across an axis: `sign` times the coordinate is at most `most`.
 Piece below(const Piece& piece, std::size_t axis, double sign, double most) noexcept {
     Piece out;
     for (std::size_t i = 0; i < piece.count; ++i) {
@@ -35,7 +35,7 @@ Piece below(const Piece& piece, std::size_t axis, double sign, double most) noex
 } // namespace
 
 BrickRows::BrickRows(const shader::CertifiedTriangle& triangle, const BrickBox& box) noexcept : box_(box) {
-    constexpr double kRounding = 1.0 / 1024; // far more than of what is cut here, in double precision
+    constexpr double kRounding = 1.0 / 1024; // far above the rounding of these cuts, in double precision
     whole_.count = 3;
     const std::array corners{&triangle.corner0, &triangle.corner1, &triangle.corner2};
     for (std::size_t i = 0; i < corners.size(); ++i) {

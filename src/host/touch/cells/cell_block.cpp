@@ -5,13 +5,13 @@ namespace voxtact::cpu {
 
 namespace {
 
-/// From a cell to the next one along each axis: bits of the second.
+/// Bits of the second cell along each axis.
 constexpr unsigned kSecondX = 0xAA;
 constexpr unsigned kSecondY = 0xCC;
 constexpr unsigned kSecondZ = 0xF0;
 
-/// Of a brick's cells, those of a block that begins at `first`, numbered within the brick: from -1, as it may begin in
-/// the brick before.
+/// Returns the bits of a block of a brick's cells that begins at `first`, numbered in the brick: from -1, because it
+/// may begin in the brick before.
 unsigned blockOf(const CellBits& bits, const std::array<std::int32_t, 3>& first) {
     unsigned found = 0;
     for (std::int32_t number = 0; number < 4; ++number) {
@@ -25,7 +25,7 @@ unsigned blockOf(const CellBits& bits, const std::array<std::int32_t, 3>& first)
     return found;
 }
 
-/// The same where all that is in the block is in the brick.
+/// Like blockOf(), for a block inside the brick.
 unsigned blockWithin(const CellBits& bits, const CellBlock& block) {
     const std::size_t nextY = (block.cells & kSecondY) != 0 ? 1 : 0;
     const std::size_t nextZ = (block.cells & kSecondZ) != 0 ? kBrickSide : 0;
@@ -36,14 +36,14 @@ unsigned blockWithin(const CellBits& bits, const CellBlock& block) {
 
 } // namespace
 
-BlockLook::Known BlockLook::find(const std::array<std::int32_t, 3>& brick) const {
+BlockLookup::Known BlockLookup::find(const std::array<std::int32_t, 3>& brick) const {
     if (!occupancy_.mayBeOpaque(occupancy_.brickNumber(brick))) {
         return {};
     }
     return {&occupancy_.cells(volume_, brick).mayBeOpaque, &occupancy_.allOpaque(volume_, brick)};
 }
 
-BlockBits BlockLook::ofOne(const CellBlock& block) {
+BlockBits BlockLookup::ofOne(const CellBlock& block) {
     if (block.brick != brick_) {
         const auto brickOf = [&](std::size_t axis) { return (block.first[axis] + 1) >> kBrickShift; };
         known_ = find({brickOf(0), brickOf(1), brickOf(2)});
@@ -54,7 +54,7 @@ BlockBits BlockLook::ofOne(const CellBlock& block) {
                : BlockBits{blockWithin(*known_.mayBeOpaque, block), blockWithin(*known_.allOpaque, block)};
 }
 
-BlockBits BlockLook::ofSeveral(const CellBlock& block) const {
+BlockBits BlockLookup::ofSeveral(const CellBlock& block) const {
     const auto second = [&](unsigned bits) { return (block.cells & bits) != 0 ? 1 : 0; };
     const CellBox cells{
         block.first,

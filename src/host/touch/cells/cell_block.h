@@ -16,8 +16,8 @@ struct CellBlock {
 
     std::array<std::int32_t, 3> first{};
     unsigned cells = 0; ///< those that are in it
-    // Where the first one is: the number of its brick, that of its row there (y + kBrickSide z), its place in that; and
-    // whether all others are in the brick as well.
+    // Position of the first cell: the index of its brick, its row there (y + kBrickSide z), and its column; and whether
+    // all others are in the same brick.
     std::uint32_t brick = 0;
     std::uint32_t row = 0;
     std::uint32_t column = 0;
@@ -30,20 +30,20 @@ struct CellBlock {
     }
 };
 
-/// What is known of the cells of a block.
+/// Occupancy of the cells of a block.
 struct BlockBits {
     unsigned mayBeOpaque = 0; ///< somewhere
     unsigned allOpaque = 0;   ///< of these
 };
 
-/// Looks up what is known of blocks' cells. One thread's.
-class BlockLook {
+/// Looks up the occupancy of blocks. Not thread-safe.
+class BlockLookup {
   public:
     /// Both must outlive it.
-    BlockLook(const VolumeImpl& volume, const CertifiedOccupancy& occupancy) noexcept
+    BlockLookup(const VolumeImpl& volume, const CertifiedOccupancy& occupancy) noexcept
         : volume_(volume), occupancy_(occupancy) {}
 
-    /// Of a block in the domain.
+    /// Returns the occupancy of a block in the domain.
     [[nodiscard]] BlockBits at(const CellBlock& block) {
         BlockBits bits = block.oneBrick ? ofOne(block) : ofSeveral(block);
         bits.mayBeOpaque &= block.cells;
@@ -59,7 +59,7 @@ class BlockLook {
     };
 
     [[nodiscard]] Known find(const std::array<std::int32_t, 3>& brick) const;
-    /// Of cells that are not in the block, any bits.
+    /// Bits of cells outside the block are arbitrary.
     [[nodiscard]] BlockBits ofOne(const CellBlock& block);
     [[nodiscard]] BlockBits ofSeveral(const CellBlock& block) const;
 
@@ -69,7 +69,7 @@ class BlockLook {
     Known known_;                                                     ///< of that
 };
 
-/// How many of some bits are set. Not every processor has an instruction for it.
+/// Counts the set bits. Some processors lack an instruction for it.
 [[nodiscard]] constexpr unsigned bitsIn(std::uint64_t bits) noexcept {
     bits -= bits >> 1U & 0x5555555555555555U;
     bits = (bits & 0x3333333333333333U) + (bits >> 2U & 0x3333333333333333U);

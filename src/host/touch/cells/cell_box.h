@@ -33,7 +33,7 @@ struct CellBox {
         }
         return box;
     }
-    /// Those of them that are in a brick, numbered within it from 0. Expects one of bricks().
+    /// Returns the cells in a brick, numbered in it from 0. Expects one of bricks().
     [[nodiscard]] CellBox within(const std::array<std::int32_t, 3>& brick) const noexcept {
         CellBox box;
         for (std::size_t axis = 0; axis < 3; ++axis) {

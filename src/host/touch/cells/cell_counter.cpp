@@ -11,7 +11,7 @@ namespace {
 
 using Bits = TriangleCells::Bits;
 
-/// The bit of a cell in the cube that begins at `first`; of what is not there, 0.
+/// Returns the bit of a cell in the cube that begins at `first`; 0 for cells outside it.
 Bits bitIn(const std::array<std::int32_t, 3>& cell, const std::array<std::int32_t, 3>& first) {
     unsigned number = 0;
     for (std::size_t axis = 3; axis-- > 0;) {
@@ -27,7 +27,7 @@ Bits bitIn(const std::array<std::int32_t, 3>& cell, const std::array<std::int32_
 /// The cell that a point is in.
 std::array<std::int32_t, 3> cellOf(const shader::VoxelPoint& point) {
     const auto along = [](float at) {
-        // Of what is beyond all cells, one that is no triangle's.
+        // A coordinate beyond all cells, in no triangle.
         constexpr float kBeyond = 1e9F;
         if (!(std::abs(at) < kBeyond)) {
             return std::numeric_limits<std::int32_t>::min();

@@ -26,7 +26,7 @@ class CellCounter {
         const CellBits& allOpaque;
     };
 
-    /// Before another triangle, which must outlive what is asked of it.
+    /// Begins another triangle, which must outlive its queries.
     void begin(const shader::CertifiedTriangle& triangle) noexcept;
     /// Returns how many fragments are certain. Calls `open(cell, passes)` for those cells of the volume that are still
     /// to be decided; `passes`: the triangle certainly does through the cell (TriangleCells::Overlap). Expects a
@@ -60,7 +60,7 @@ class CellCounter {
     };
 
     [[nodiscard]] static Cube cubeOf(const Part& part, const Place& from) noexcept;
-    /// The cells that are left, and those of them that the triangle passes through.
+    /// Remaining cells, and those that the triangle passes through.
     struct Left {
         Bits cells = 0;
         Bits passed = 0;

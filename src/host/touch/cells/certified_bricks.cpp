@@ -18,7 +18,7 @@ struct Extent {
     std::int64_t end;
 };
 
-/// Those that are corners of a brick's cells, or of those one farther out.
+/// Corners of a brick's cells and their neighbours.
 Extent wideExtent(std::int32_t brick, std::int32_t size) {
     const std::int64_t first = std::int64_t{brick} << kBrickShift;
     return {std::max<std::int64_t>(first - 1, 0),
@@ -53,7 +53,7 @@ void grow(CellBox& box, const std::array<std::int32_t, 3>& cell) {
     }
 }
 
-/// Those cells of a row, given by their ranges, that may be opaque where there are several intervals.
+/// Returns the cells of a row, given by their ranges, that may be opaque under several intervals.
 std::uint8_t withoutHoles(const shader::OpaqueValues& opaque, std::uint8_t row, const float* lo, const float* hi,
                           float error) {
     unsigned kept = 0;
@@ -64,7 +64,7 @@ std::uint8_t withoutHoles(const shader::OpaqueValues& opaque, std::uint8_t row, 
     return static_cast<std::uint8_t>(kept);
 }
 
-/// Of a brick, those that do not reach beyond the domain.
+/// Returns the cells of a brick inside the domain.
 CellBox wholeCells(const StoredImage& image, const std::array<std::int32_t, 3>& place) {
     CellBox box;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -141,7 +141,7 @@ const CellBits& CertifiedBricks::makeAllOpaque(const VolumeImpl& volume, const s
                                                const shader::OpaqueValues& opaque, std::size_t number,
                                                const std::array<std::int32_t, 3>& place) const {
     const BrickCells& known = at(volume, item, opaque, number, place);
-    // What is asked of a cell is asked of points off by its margin.
+    // Displacement of tested points, in margins of the cell.
     constexpr float kMargins = 2;
     const float error = shader::certifiedPointError(item, known.wideLo, known.wideHi);
     const float margin =

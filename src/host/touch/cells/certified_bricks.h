@@ -15,9 +15,9 @@
 
 namespace voxtact::cpu {
 
-/// What is known of a brick's cells under a transfer function and threshold.
+/// Occupancy of a brick's cells under a transfer function and threshold.
 struct BrickCells {
-    /// Stored values near the brick: of its cells, and of those one farther out on every side.
+    /// Range of stored values near the brick: of its cells and their neighbours.
     float wideLo = 0;
     float wideHi = 0;
     /// The cells that may have an opaque point (certifiedCellMayBeOpaque()).
@@ -25,18 +25,18 @@ struct BrickCells {
     /// The box around these cells, numbered within the brick.
     CellBox around{{kBrickSide, kBrickSide, kBrickSide}, {-1, -1, -1}};
 
-    /// The bits of a row of cells, of those between the columns of a box (numbered within the brick).
+    /// Returns the bits of a row of cells, between the columns of a box (numbered in the brick).
     [[nodiscard]] unsigned row(const CellBox& box, std::int32_t y, std::int32_t z) const noexcept {
         return mayBeOpaque[static_cast<std::size_t>(y + kBrickSide * z)] & box.columns();
     }
-    /// Whether a cell of the brick, numbered as the volume's, may have an opaque point.
+    /// Returns true if a cell of the brick, numbered in the volume, may have an opaque point.
     [[nodiscard]] bool has(const std::array<std::int32_t, 3>& cell) const noexcept {
         const auto place = [&](std::size_t axis) {
             return static_cast<unsigned>(cell[axis] + 1) % static_cast<unsigned>(kBrickSide);
         };
         return (mayBeOpaque[place(1) + kBrickSide * place(2)] >> place(0) & 1U) != 0;
     }
-    /// Whether some cell of a box (numbered within the brick) may have an opaque point.
+    /// Returns true if some cell of a box (numbered in the brick) may have an opaque point.
     [[nodiscard]] bool any(const CellBox& box) const noexcept;
     /// The bits of a slice: row y from bit 8 * y on.
     [[nodiscard]] std::uint64_t slice(std::int32_t z) const noexcept;
@@ -52,7 +52,7 @@ template <class Value> class MadeOnce {
     [[nodiscard]] const Value* find(std::size_t number) const noexcept {
         return made_[number].load(std::memory_order_acquire) ? &values_[number] : nullptr;
     }
-    /// Of two threads that have made one at once, the first keeps it.
+    /// If two threads create one at once, the first is kept.
     const Value& keep(std::size_t number, const Value& made) const {
         const std::lock_guard lock(*mutex_);
         if (values_ == nullptr) {
@@ -80,16 +80,16 @@ class CertifiedBricks {
     /// `mixed` is not zero for the bricks that may be asked for.
     explicit CertifiedBricks(std::span<const std::uint8_t> mixed);
 
-    /// Of a brick that may be asked for, given by its number and its place; with the same volume, item and opaque
-    /// values in every call.
+    /// Returns the cells of a brick, given by index and position; volume, item and opaque values must be the same in
+    /// every call.
     [[nodiscard]] const BrickCells& at(const VolumeImpl& volume, const shader::CertifiedItem& item,
                                        const shader::OpaqueValues& opaque, std::size_t number,
                                        const std::array<std::int32_t, 3>& place) const {
         const BrickCells* made = cells_.find(slots_[number]);
         return made != nullptr ? *made : makeCells(volume, item, opaque, number, place);
     }
-    /// Its cells that are in the domain and opaque all over: certifiedCellAllOpaque() says so of them for every
-    /// triangle that is displaced by TriangleCells::kMostDelta at most.
+    /// Returns its cells in the domain that are entirely opaque: certifiedCellAllOpaque() holds for every triangle
+    /// displaced by at most TriangleCells::kMostDelta.
     [[nodiscard]] const CellBits& allOpaqueAt(const VolumeImpl& volume, const shader::CertifiedItem& item,
                                               const shader::OpaqueValues& opaque, std::size_t number,
                                               const std::array<std::int32_t, 3>& place) const {

@@ -29,7 +29,7 @@ bool CertifiedOccupancy::mayBeOpaque(const VolumeImpl& volume, const CellBox& ce
     if (box.hi == box.lo) {
         return mayBeOpaque(volume, box.lo, cells);
     }
-    // Of a few bricks, each is soon examined.
+    // A few bricks are tested one by one.
     if (box.hi[0] - box.lo[0] > 1 || box.hi[1] - box.lo[1] > 1 || box.hi[2] - box.lo[2] > 1) {
         const std::uint32_t mixed = sums_.within(box);
         if (mixed == 0 || mixed > kMostBricks) {

@@ -32,11 +32,12 @@ class CertifiedOccupancy {
                    static_cast<std::size_t>(count_[0]) +
                static_cast<std::size_t>(brick[0]);
     }
-    /// Whether a brick may have an opaque point.
+    /// Returns true if a brick may have an opaque point.
     [[nodiscard]] bool mayBeOpaque(std::size_t number) const noexcept { return mixed_[number] != 0; }
-    /// Whether some brick of a box may.
+    /// Returns true if some brick of a box may have an opaque point.
     [[nodiscard]] bool mayBeOpaque(const BrickBox& box) const noexcept { return sums_.within(box) != 0; }
-    /// Whether some cell of a box may, as far as a look at a few bricks tells. `volume` is the one of the constructor.
+    /// Returns true if some cell of a box may have an opaque point; tests a few bricks only. `volume` is that of the
+    /// constructor.
     [[nodiscard]] bool mayBeOpaque(const VolumeImpl& volume, const CellBox& cells) const;
     [[nodiscard]] bool nothingOpaque() const noexcept { return sums_.all() == 0; }
     /// The cells of a brick that may have an opaque point. `volume` is the one of the constructor.
@@ -44,18 +45,18 @@ class CertifiedOccupancy {
         return bricks_.at(volume, item_, opaque_, brickNumber(brick), brick);
     }
 
-    /// Those of them that are opaque all over.
+    /// Returns the cells that are entirely opaque.
     [[nodiscard]] const CellBits& allOpaque(const VolumeImpl& volume, const std::array<std::int32_t, 3>& brick) const {
         return bricks_.allOpaqueAt(volume, item_, opaque_, brickNumber(brick), brick);
     }
 
   private:
-    /// The same of those in one brick.
+    /// Like mayBeOpaque(volume, cells), for cells in one brick.
     [[nodiscard]] bool mayBeOpaque(const VolumeImpl& volume, const std::array<std::int32_t, 3>& brick,
                                    const CellBox& cells) const;
 
     OpaqueNumbers numbers_;
-    shader::OpaqueValues opaque_; ///< of those
+    shader::OpaqueValues opaque_; ///< opaque values of the item
     shader::CertifiedItem item_;
     std::array<std::int32_t, 3> count_;
     std::vector<std::uint8_t> mixed_;

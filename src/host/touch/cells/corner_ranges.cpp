@@ -20,11 +20,11 @@ using Floats = RowFloats;
 using FloatV = RowV;
 constexpr std::size_t kCells = kBrickSide;
 constexpr std::size_t kCorners = CornerRanges::kCorners;
-/// From a corner to the next one along y and z.
+/// Steps from a corner to the next one along y and z.
 constexpr std::size_t kRow = kCorners;
 constexpr std::size_t kSlice = kCorners * kCorners;
 
-/// As certifiedMin() and certifiedMax() are: what is not a number stays where it is first.
+/// Same as certifiedMin() and certifiedMax(): NaN stays if it is first.
 HWY_INLINE FloatV lesser(FloatV a, FloatV b) {
     return hn::IfThenElse(hn::Lt(b, a), b, a);
 }
@@ -32,7 +32,7 @@ HWY_INLINE FloatV greater(FloatV a, FloatV b) {
     return hn::IfThenElse(hn::Gt(b, a), b, a);
 }
 
-/// From stored values to entries, as certifiedEntry(). False where one is not finite.
+/// Converts stored values to entries, like certifiedEntry(). False if one is not finite.
 bool toEntries(const shader::CertifiedItem& item, float* values, std::size_t count) {
     const Floats d;
     const FloatV reference = hn::Set(d, item.storedReference);
@@ -53,7 +53,7 @@ bool toEntries(const shader::CertifiedItem& item, float* values, std::size_t cou
     return all;
 }
 
-/// Each of `rows` rows of cells with what is `step` further on.
+/// Merges each of `rows` rows of cells with the row `step` further on.
 HWY_INLINE void merge(float* lo, float* hi, std::size_t slices, std::size_t rows, std::size_t step) {
     const Floats d;
     for (std::size_t z = 0; z < slices; ++z) {
@@ -69,7 +69,7 @@ HWY_INLINE void merge(float* lo, float* hi, std::size_t slices, std::size_t rows
     }
 }
 
-/// From the values at corners to the ranges of cells.
+/// Converts corner values to cell ranges.
 void reduce(CornerRanges& ranges) {
     float* const lo = &ranges.lo[0][0][0];
     float* const hi = &ranges.hi[0][0][0];
@@ -97,7 +97,7 @@ template <class Ask> HWY_INLINE CellBits cellsFor(const CornerRanges& ranges, co
     return cells;
 }
 
-/// What is not a number meets all.
+/// NaN meets every range.
 CellBits meeting(const CornerRanges& ranges, float error, float first, float last) {
     const Floats d;
     const FloatV wide = hn::Set(d, error);
@@ -107,7 +107,7 @@ CellBits meeting(const CornerRanges& ranges, float error, float first, float las
     });
 }
 
-/// What is not a number is nowhere.
+/// NaN is inside no range.
 CellBits inside(const CornerRanges& ranges, float error, float first, float last) {
     const Floats d;
     const FloatV wide = hn::Set(d, error);

@@ -15,8 +15,8 @@ namespace voxtact::cpu {
 using CellBits = std::array<std::uint8_t, std::size_t{kBrickSide} * kBrickSide>;
 static_assert(kBrickSide == 8, "a row of cells is a byte");
 
-/// Of a brick's cells: the least and the greatest entry at the corners. NaN is the one or the other where
-/// the corner with the lowest coordinates is, else passed over.
+/// Minimum and maximum entry at the corners of a brick's cells. NaN replaces both if it is at the corner with the
+/// lowest coordinates; otherwise it is skipped.
 struct CornerRanges {
     static constexpr std::size_t kCorners = kBrickSide + 1;
 
@@ -31,7 +31,7 @@ struct CornerRanges {
                                           const std::array<std::int32_t, 3>& place);
 /// The cells whose range, wider by `error` on both sides, neither ends before `first` nor begins after `last`.
 [[nodiscard]] CellBits cellsThatMeet(const CornerRanges& ranges, float error, float first, float last);
-/// Those for which it is within `first` and `last`.
+/// Returns the cells whose range is within `first` and `last`.
 [[nodiscard]] CellBits cellsWithin(const CornerRanges& ranges, float error, float first, float last);
 
 } // namespace voxtact::cpu

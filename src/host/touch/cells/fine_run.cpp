@@ -29,7 +29,7 @@ HWY_INLINE FloatV greatestOf(const std::array<FloatV, 3>& of) {
     return hn::Max(of[0], hn::Max(of[1], of[2]));
 }
 
-/// The corners of some triangles, by axis, and what is asked of them.
+/// Corners of some triangles, by axis, with their margins.
 struct Corners {
     std::array<std::array<FloatV, 3>, 3> at; ///< by axis and corner
     std::array<FloatV, 3> lo;
@@ -38,7 +38,7 @@ struct Corners {
     Mask certain; ///< all is a number, and delta small enough
 };
 
-/// As certifiedReach(), where all is a number.
+/// Same as certifiedReach() for finite numbers.
 HWY_INLINE Corners cornersOf(const FineRun::Triangles& lanes, std::size_t i) {
     const Floats d;
     Corners corners;
@@ -72,7 +72,7 @@ struct Along {
     FloatV first;
     FloatV last;
     Mask some; ///< there are cells
-    Mask two;  ///< of them, and no more
+    Mask two;  ///< exactly two of them
     Mask few;  ///< there are no more than two
 };
 
@@ -92,7 +92,7 @@ HWY_INLINE Along cellsAlong(const Corners& corners, std::size_t axis, std::int32
     return along;
 }
 
-/// The bit of the cell that a corner is in, as far as axes were examined, and whether there is such a cell.
+/// Bit of a corner's cell, for the axes tested so far, and whether that cell exists.
 struct InCells {
     WordV bits;
     Mask inside;
@@ -183,7 +183,7 @@ struct PointV {
 HWY_INLINE PointV minus(const PointV& a, const PointV& b) {
     return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
 }
-/// As voxelLength().
+/// Same as voxelLength().
 HWY_INLINE FloatV lengthOf(const PointV& of) {
     return hn::Max(hn::Abs(of.x), hn::Max(hn::Abs(of.y), hn::Abs(of.z)));
 }
@@ -192,11 +192,11 @@ HWY_INLINE FloatV crossed(FloatV a, FloatV b, FloatV c, FloatV d) {
     return hn::Sub(hn::Mul(a, b), hn::Mul(c, d));
 }
 
-/// What is found of cells, as certifiedSeparate() and its like have it for one.
+/// Verdicts on cells, like certifiedSeparate() and related functions for one.
 struct Verdict {
     Mask none;
     Mask some;
-    FloatV margin; ///< as certifiedOverlapMargin() has it
+    FloatV margin; ///< as in certifiedOverlapMargin()
 
     HWY_INLINE void separate(FloatV gap, FloatV slack, FloatV size) {
         const FloatV most = hn::Mul(margin, size);
@@ -252,7 +252,7 @@ HWY_INLINE Asked askedOf(const FineRun::Triangles& triangles, const FineRun::Cel
     return asked;
 }
 
-/// As certifiedOverlap(), where no corner is in the cell.
+/// Same as certifiedOverlap(), for triangles without a corner in the cell.
 HWY_INLINE Verdict overlapOf(const Asked& asked) {
     const Floats d;
     const FloatV one = hn::Set(d, 1.0F);
@@ -267,7 +267,7 @@ HWY_INLINE Verdict overlapOf(const Asked& asked) {
     verdict.separateByEdge(minus(b, a), a, b, c);
     verdict.separateByEdge(minus(c, b), a, b, c);
     verdict.separateByEdge(minus(a, c), a, b, c);
-    // As certifiedTriangle() has them.
+    // Same as in certifiedTriangle().
     const PointV u = minus(second, first);
     const PointV v = minus(third, first);
     const PointV normal{crossed(u.y, v.z, u.z, v.y), crossed(u.z, v.x, u.x, v.z), crossed(u.x, v.y, u.y, v.x)};
@@ -319,7 +319,7 @@ void FineRun::add(const shader::CertifiedVertex& a, const shader::CertifiedVerte
     ++count_;
 }
 
-void FineRun::look(const shader::CertifiedItem& item, const std::array<std::int32_t, 3>& bricks) noexcept {
+void FineRun::test(const shader::CertifiedItem& item, const std::array<std::int32_t, 3>& bricks) noexcept {
     HWY_DYNAMIC_DISPATCH(lookAt)(item, bricks, triangles_, count_);
     count_ = 0;
     asked_ = 0;

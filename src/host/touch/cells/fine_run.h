@@ -18,13 +18,13 @@ class FineRun {
 
     struct Small {
         CellBlock block; ///< the cells of certifiedBounds(); none where it meets nothing of the volume
-        /// For each of its corners the cell that it is in, or none: it is not cut off there.
+        /// The cell of each corner, or none: no cutting is needed there.
         std::array<unsigned, 3> corner{};
         float delta = 0; ///< no more than CERTIFIED_OVERLAP_DELTA
 
         [[nodiscard]] unsigned corners() const noexcept { return corner[0] | corner[1] | corner[2]; }
     };
-    /// As certifiedOverlap() has it; neither of what it leaves open.
+    /// Same as certifiedOverlap(); neither bit of a cell that it leaves open.
     struct Overlap {
         unsigned some = 0; ///< the cells that the triangle passes through
         unsigned none = 0; ///< those that it does not
@@ -33,10 +33,10 @@ class FineRun {
     /// The next triangle; expects room.
     void add(const shader::CertifiedVertex& a, const shader::CertifiedVertex& b,
              const shader::CertifiedVertex& c) noexcept;
-    /// Looks at what was added since the last look. `bricks`: how many the volume has along each axis.
-    void look(const shader::CertifiedItem& item, const std::array<std::int32_t, 3>& bricks) noexcept;
+    /// Tests the triangles added since the last call. `bricks`: number of the volume's bricks along each axis.
+    void test(const shader::CertifiedItem& item, const std::array<std::int32_t, 3>& bricks) noexcept;
 
-    /// Whether triangle i is small, and certain enough for certifiedOverlap().
+    /// Returns true if triangle i is small and precise enough for certifiedOverlap().
     [[nodiscard]] bool isSmall(std::size_t i) const noexcept { return triangles_.small[i] != 0; }
     /// Expects one that is.
     [[nodiscard]] Small operator[](std::size_t i) const noexcept {
@@ -53,7 +53,7 @@ class FineRun {
 
     /// Asks which of some cells of its block triangle i passes through; expects one that is small, and each once.
     void ask(std::size_t i, unsigned cells) noexcept;
-    /// Answers what was asked since the last look.
+    /// Answers the queries since the last call.
     void answer() noexcept;
     [[nodiscard]] const Overlap& overlap(std::size_t i) const noexcept { return overlaps_[i]; }
 
@@ -65,7 +65,7 @@ class FineRun {
         std::array<Each<float>, 3> error{};             ///< by corner
         Each<std::uint32_t> small{};                    ///< not 0: it is
         std::array<Each<std::int32_t>, 3> first{};
-        // Of the CellBlock; `oneBrick` is not 0 where it is true.
+        // index of the CellBlock; `oneBrick`: not 0 if true
         Each<std::uint32_t> cells{};
         Each<std::uint32_t> brick{};
         Each<std::uint32_t> row{};

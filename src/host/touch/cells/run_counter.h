@@ -11,15 +11,15 @@
 
 namespace voxtact::cpu {
 
-/// Counts the fragments of a run's small triangles, as far as that is clear without cutting them: certain is one in a
-/// cell that is opaque all over (CertifiedBricks::allOpaqueAt()), and none is one where the triangle does not pass
-/// through the cell. One thread's.
+/// Counts the fragments of a run's small triangles that need no cutting: a cell that is entirely opaque
+/// (CertifiedBricks::allOpaqueAt()) gives a certain fragment, a cell that the triangle does not pass through gives
+/// none. Not thread-safe.
 class RunCounter {
   public:
     /// Cells of a small triangle that are still to be decided.
     struct Left {
         unsigned cells = 0;
-        unsigned passed = 0; ///< those of them that it passes through (FineRun::Overlap)
+        unsigned passed = 0; ///< cells that it passes through (FineRun::Overlap)
     };
 
     /// The job must outlive it.
@@ -34,7 +34,7 @@ class RunCounter {
                                       const Large& large, const Open& open) {
         const std::size_t first = placed.begin(run);
         const std::size_t triangles = add(placed, first);
-        small_.look(job_.occupancy.item(), job_.occupancy.bricks());
+        small_.test(job_.occupancy.item(), job_.occupancy.bricks());
         std::uint64_t certain = 0;
         for (std::size_t i = 0; i < triangles; ++i) {
             left_[i] = {};
@@ -67,7 +67,7 @@ class RunCounter {
         return count;
     }
 
-    /// In the cells that one of its corners is in. Asks about the others.
+    /// Counts the cells with one of its corners; queues queries about the others.
     template <class Proves> unsigned countCorners(std::size_t at, std::size_t i, const Proves& proves) {
         const FineRun::Small small = small_[i];
         if (small.block.cells == 0) {
@@ -93,7 +93,7 @@ class RunCounter {
     }
 
     const CertifiedJob& job_;
-    BlockLook blocks_;
+    BlockLookup blocks_;
     FineRun small_;
     std::array<BlockBits, kRunTriangles> left_{}; ///< of each triangle, the cells that are still to be decided
 };

@@ -18,7 +18,7 @@ namespace voxtact::cpu {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// As much of a row as fits.
+/// A row, as far as it fits into a vector.
 using RowFloats = hn::CappedTag<float, kBrickSide>;
 using RowV = hn::Vec<RowFloats>;
 

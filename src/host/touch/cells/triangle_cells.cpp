@@ -24,7 +24,7 @@ HWY_INLINE FloatV dotted(FloatV x, FloatV y, FloatV z, const shader::VoxelPoint&
     return hn::Add(hn::Add(hn::Mul(x, hn::Set(d, at.x)), hn::Mul(y, hn::Set(d, at.y))), hn::Mul(z, hn::Set(d, at.z)));
 }
 
-/// From normals of any length; `second` and `third` are the triangle's corners, the first being at 0.
+/// From normals of any length; `second` and `third` are the triangle's corners, the first is at 0.
 void setShadows(TriangleAxes& axes, const shader::VoxelPoint& second, const shader::VoxelPoint& third) {
     constexpr float kShortest = 1e-12F;
     const Floats d;
@@ -49,7 +49,7 @@ void setShadows(TriangleAxes& axes, const shader::VoxelPoint& second, const shad
     }
 }
 
-/// How far inside the shadow what is at `at` on an axis is.
+/// Depth of `at` inside the projection, along an axis.
 HWY_INLINE FloatV insideOf(FloatV at, FloatV lo, FloatV hi) {
     return hn::Min(hn::Sub(at, lo), hn::Sub(hi, at));
 }
@@ -80,7 +80,7 @@ HWY_INLINE FloatV insideAlong(const TriangleAxes& axes, std::size_t axis, const 
     return insideOf(place, hn::Set(d, axes.lo[axis]), hn::Set(d, axes.hi[axis]));
 }
 
-/// Of each lane a bit, lowest first.
+/// One bit per lane, lowest first.
 struct LaneBits {
     unsigned some = 0;
     unsigned none = 0;
@@ -134,7 +134,7 @@ namespace {
 
 using shader::VoxelPoint;
 
-/// Of any length.
+/// Normals may have any length.
 void setNormals(const std::array<VoxelPoint, 3>& edges, const VoxelPoint& normal, TriangleAxes& axes) {
     constexpr std::size_t kBox = TriangleAxes::kNormal + 1;
     constexpr std::size_t kEdges = kBox + 3;
@@ -166,7 +166,7 @@ TriangleCells::TriangleCells(const shader::CertifiedTriangle& triangle) noexcept
     setNormals({second, shader::voxelDifference(third, second), third}, normal, axes_);
     HWY_DYNAMIC_DISPATCH(setShadows)(axes_, second, third);
     axes_.margin = shader::certifiedOverlapMargin(triangle.delta);
-    // As certifiedPlaneMisses() has it.
+    // Same as in certifiedPlaneMisses().
     const float size = std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z);
     const float cube = triangle.reach * triangle.reach * (triangle.reach + static_cast<float>(2 * kBrickSide));
     axes_.slack = size > 0 ? cube * CERTIFIED_CLIP_ERROR / size : std::numeric_limits<float>::infinity();

@@ -27,17 +27,17 @@ struct TriangleAxes {
     float slack = 0;  ///< voxels along the triangle's normal, which rounding may have turned
 };
 
-/// Which cells a triangle passes through, many at a time, as far as that is clear without cutting the triangle: it
-/// meets a box where no axis separates them, of those of the box, the triangle's normal, and the nine at right angles
-/// to an edge of either (Akenine-Moeller, "Fast 3D triangle-box overlap testing", 2001). They are asked of a box
-/// somewhat smaller than the cell, and of a larger one; for what is between, there is certifiedClip().
+/// Finds the cells that a triangle passes through, many at a time, without cutting it: a triangle meets a box if no
+/// separating axis exists among those of the box, the triangle's normal, and the nine perpendicular to an edge of each
+/// (Akenine-Moeller, "Fast 3D triangle-box overlap testing", 2001). Tests a box slightly smaller than the cell, and a
+/// larger one; certifiedClip() decides the cells in between.
 class TriangleCells {
   public:
     /// Cells of a side of a cube.
     static constexpr std::uint32_t kSide = 4;
     /// A bit for each cell of a cube: x + kSide (y + kSide z).
     using Bits = std::uint64_t;
-    /// Voxels: nothing is said of triangles that may be displaced farther.
+    /// Voxels: triangles that may be displaced farther are not tested.
     static constexpr float kMostDelta = CERTIFIED_OVERLAP_DELTA;
 
     struct Overlap {
@@ -45,15 +45,15 @@ class TriangleCells {
         Bits none = 0; ///< it leaves nothing
     };
 
-    /// Whether something is said of a triangle.
+    /// Returns true if a triangle can be tested.
     [[nodiscard]] static bool mayBeAsked(const shader::CertifiedTriangle& triangle) noexcept {
         return shader::certifiedOverlapMayBeAsked(triangle);
     }
     /// Expects one that may be asked.
     explicit TriangleCells(const shader::CertifiedTriangle& triangle) noexcept;
 
-    /// Of some cells of the cube from `first` on. Expects cells that the triangle's box meets, or beside these by no
-    /// more than two cubes.
+    /// Tests some cells of the cube from `first` on. Expects cells that the triangle's box meets, or at most two cubes
+    /// beside them.
     [[nodiscard]] Overlap of(Bits cells, const std::array<std::int32_t, 3>& first) const noexcept;
 
   private:

@@ -40,7 +40,7 @@ template <class Kept> class VolumeCells {
             }
         }
     }
-    /// The same of those that a large triangle may pass through, in the same order.
+    /// Like forBricks(), for the bricks that a large triangle may pass through, in the same order.
     template <class GoesOn, class Visit>
     void forBricks(const BrickRows& bricks, const BrickBox& box, const GoesOn& goesOn, const Visit& visit) const {
         for (std::int32_t z = box.lo[2]; z <= box.hi[2]; ++z) {
@@ -83,7 +83,8 @@ template <class Kept> class VolumeCells {
                 known.wideLo,
                 known.wideHi};
     }
-    /// The same with the range of the voxels around this cell alone: one voxel of a brick may be far from all others.
+    /// Like corners(), with the range of the voxels around this cell alone: one voxel of a brick may be far from all
+    /// others.
     [[nodiscard]] shader::CertifiedCorners cornersAround(std::int32_t x, std::int32_t y, std::int32_t z,
                                                          const BrickCells& known) const;
     [[nodiscard]] shader::CertifiedCell cell(std::int32_t x, std::int32_t y, std::int32_t z, const BrickCells& known,
@@ -93,7 +94,7 @@ template <class Kept> class VolumeCells {
 
     /// The cell that a vertex is in, if that may have an opaque point.
     [[nodiscard]] std::optional<Place> cellWith(const shader::VoxelPoint& vertex) const;
-    /// Whether a vertex alone proves a touch; `delta` is not less than that of a triangle that has it.
+    /// Returns true if a vertex alone proves a touch; `delta` is at least that of a triangle with this vertex.
     [[nodiscard]] bool vertexProves(const shader::VoxelPoint& vertex, float delta, shader::CertifiedProof* proof) const;
 
   private:
@@ -129,7 +130,7 @@ shader::CertifiedCorners VolumeCells<Kept>::cornersAround(std::int32_t x, std::i
         around.wideLo = shader::certifiedMin(around.wideLo, storedValue(*at));
         around.wideHi = shader::certifiedMax(around.wideHi, storedValue(*at));
     }
-    return around.wideLo <= around.wideHi ? around : inBrick; // where none of them is a number
+    return around.wideLo <= around.wideHi ? around : inBrick; // if all are NaN
 }
 
 template <class Kept> auto VolumeCells<Kept>::cellWith(const shader::VoxelPoint& vertex) const -> std::optional<Place> {

@@ -20,7 +20,7 @@ std::string sourceWord(const std::string& source) {
     return shellWord(builtin || failed ? source : absolute.string());
 }
 
-/// What the command's answer is not about.
+/// Parts of the document that the command ignores.
 std::string commentsOf(const Document& document) {
     const std::size_t holes = document.edit.holes;
     const std::string without = holes == 0   ? ""

@@ -14,8 +14,7 @@ namespace voxtact::view {
 [[nodiscard]] std::string commandFor(const Document& document, const Instrument& instrument, const MethodChoice& method,
                                      const std::string& device);
 
-/// The same for all of them, in their order: a line each, which have poses, spaces and scales of their own, and the
-/// comments once.
+/// Returns the commands of all meshes, in order, one line each with its own poses, spaces and scales; comments once.
 [[nodiscard]] std::string copyAsCommand(const Document& document, const MethodChoice& method,
                                         const std::string& device);
 

@@ -20,22 +20,22 @@ struct ComparedMethod {
 
 class Comparison {
   public:
-    /// Asks these methods about an edit from the first on. Answers to what was asked before are none any more.
+    /// Starts a comparison of these methods on an edit. Discards pending answers.
     void begin(const Edit& edit, std::span<const MethodChoice> methods);
-    /// Whether it is about this, whatever is chosen.
+    /// True if the comparison is about this edit, whichever mesh is chosen.
     [[nodiscard]] bool isOf(const Edit& edit) const { return serial_ > 0 && edit_ == edit; }
 
-    /// What is to be asked next, whose answer is to be given to take(); nothing while an answer is waited for, and
-    /// where all have answered.
+    /// Returns the next question, whose answer goes to take(); empty while an answer is pending, and after the last
+    /// one.
     [[nodiscard]] std::optional<LiveQuestion> next();
     /// The answer to what next() gave last. One that was cancelled is asked for again.
     void take(Result<LiveAnswer> answer);
 
-    /// In the order of begin(). Those of the edit before until there is another.
+    /// In the order of begin(). Those of the previous edit until new ones exist.
     [[nodiscard]] const std::vector<ComparedMethod>& methods() const { return methods_; }
-    /// How many of them have answered, or were refused.
+    /// Number of methods that have answered or failed.
     [[nodiscard]] std::size_t answered() const { return answered_; }
-    /// Nothing is left to ask, and nothing is waited for.
+    /// No question is left or pending.
     [[nodiscard]] bool complete() const { return !waiting_ && answered_ == methods_.size(); }
     /// One more with each begin().
     [[nodiscard]] std::uint64_t serial() const { return serial_; }
@@ -43,7 +43,7 @@ class Comparison {
   private:
     Edit edit_;
     std::vector<ComparedMethod> methods_;
-    std::size_t answered_ = 0;  ///< the first so many
+    std::size_t answered_ = 0;  ///< the first methods have answered
     std::uint64_t serial_ = 0;  ///< the revision of its questions
     std::uint64_t waiting_ = 0; ///< of the question whose answer is waited for; 0: none
 };

@@ -17,7 +17,7 @@ std::string counted(unsigned long long count, const std::string& one) {
     return std::to_string(count) + ' ' + one + (count == 1 ? "" : "s");
 }
 
-/// How many contacts a pair has, of which the batch lists `listed`.
+/// Number of contacts of a pair, of which the batch lists `listed`.
 std::uint64_t contactsOf(const BatchAnswer& batch, const PairAnswer& pair, std::size_t listed) {
     if (batch.pairs.size() == 1) {
         return batch.contactsFound;
@@ -86,7 +86,7 @@ std::string trianglesText(const MeshAnswer& answer) {
     }
     const double deepest = answer.contacts.front().depth;
     char text[64];
-    // It is not followed any farther.
+    // The maximum depth.
     std::snprintf(text, sizeof text, ", deepest %.4g mm%s", deepest, deepest >= kDefaultMaxDepth ? " or more" : "");
     return triangles + text;
 }

@@ -10,23 +10,23 @@
 #include <string>
 #include <vector>
 
-/// What the window says of the pairs that it shows: of each mesh and the volume.
+/// Answers of the window about its pairs: each mesh and the volume.
 namespace voxtact::view {
 
 /// Contacts that are shown and listed, at most.
 inline constexpr std::size_t kShownContacts = 2000;
 
-/// Where projections with a camera look from, as `voxtact count` has it.
+/// Camera of projections that use one, as in `voxtact count`.
 [[nodiscard]] View answerView(const Grid& grid);
 
-/// What is asked: of all instruments of an edit, in one way.
+/// A question about all instruments of an edit, by one method.
 struct LiveQuestion {
     std::uint64_t revision = 0; ///< its answer has the same
     Edit edit;
     MethodChoice method;
 };
 
-/// What is said of one mesh.
+/// Answer about one mesh.
 struct MeshAnswer {
     Instrument instrument; ///< that was asked about
     PairAnswer pair;
@@ -39,13 +39,13 @@ struct MeshAnswer {
 struct LiveAnswer {
     std::uint64_t revision = 0;     ///< of the question
     std::vector<MeshAnswer> meshes; ///< in the order of the question
-    double milliseconds = 0;        ///< of all of it. The host: wall clock; a device: its own clock, where it has one
+    double milliseconds = 0;        ///< duration: wall clock on the host; a device's own clock if it has one
 
-    /// Of a mesh by its number in Sources::meshes. Null where it was not asked about.
+    /// Answer about a mesh, by its index in Sources::meshes. Null if it was not tested.
     [[nodiscard]] const MeshAnswer* of(std::size_t mesh) const noexcept;
 };
 
-/// Of a batch with one pair for each instrument, in their order.
+/// Answer of a batch with one pair per instrument, in order.
 [[nodiscard]] LiveAnswer liveAnswer(BatchAnswer batch, std::uint64_t revision, std::span<const Instrument> instruments,
                                     double milliseconds);
 
@@ -55,7 +55,7 @@ struct LiveAnswer {
 [[nodiscard]] std::string countText(const PairAnswer& answer);
 /// "12 triangles, deepest 3.2 mm".
 [[nodiscard]] std::string trianglesText(const MeshAnswer& answer);
-/// As `voxtact count` writes it: 0, 1, or 2 for undecided.
+/// Number as in `voxtact count`: 0, 1, or 2 for undecided.
 [[nodiscard]] int hitNumber(const PairAnswer& answer) noexcept;
 
 /// The times of the last 1,000 answers.
@@ -63,7 +63,7 @@ class Times {
   public:
     void add(double milliseconds);
     [[nodiscard]] std::size_t count() const { return last_.size(); }
-    /// The nearest rank: the least time that at least this share (0..1) of them does not exceed. 0 without any.
+    /// Nearest-rank percentile: the smallest time that at least this share (0..1) does not exceed. 0 without times.
     [[nodiscard]] double percentile(double share) const;
     /// In their order.
     [[nodiscard]] const std::deque<double>& last() const { return last_; }
@@ -72,7 +72,7 @@ class Times {
     std::deque<double> last_;
 };
 
-/// What the window said in the last seconds: an answer is in sight until the next one comes.
+/// Answers of the last seconds: an answer is visible until the next one.
 class Strip {
   public:
     static constexpr double kSeconds = 10; ///< that it goes back

@@ -12,7 +12,7 @@ namespace voxtact::view {
 
 namespace {
 
-/// Hundredths of a millimetre; of what is short so many that two digits are left.
+/// Hundredths of a millimetre; for short distances two significant digits.
 int decimalsOf(double mm) {
     constexpr int kLeast = 2;
     constexpr int kMost = 6; // a nanometre

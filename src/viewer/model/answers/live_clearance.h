@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-/// How near each mesh is, and how much of it touches, as the host measures it together with the answer.
+/// Distance and contact area of each mesh, measured by the host together with the answer.
 namespace voxtact::view {
 
 struct MeshClearance {
@@ -22,22 +22,22 @@ struct MeshClearance {
 struct LiveClearance {
     std::uint64_t revision = 0;        ///< of the question
     std::vector<MeshClearance> meshes; ///< in the order of the question
-    double milliseconds = 0;           ///< of all of it, wall clock
+    double milliseconds = 0;           ///< duration of all, wall clock
 
-    /// Of a mesh by its number. Null where it was not asked about.
+    /// Distances of a mesh, by its index. Null if it was not measured.
     [[nodiscard]] const MeshClearance* of(std::size_t mesh) const noexcept;
-    /// Whether there are areas, too.
+    /// True if areas exist.
     [[nodiscard]] bool hasAreas() const noexcept;
 };
 
-/// Bounds of a length or an area, so many mm or mm^2, rounded down and up: they hold as they are read.
+/// Bounds of a length or an area, mm or mm^2, rounded down and up: the printed bounds hold.
 [[nodiscard]] std::string lowerText(double mm);
 [[nodiscard]] std::string upperText(double mm);
 
 /// "12.34 to 12.35 mm away", "touches", "820.05 to 820.15 mm² touch", "nothing is opaque".
 [[nodiscard]] std::string clearanceText(const MeshClearance& clearance);
 
-/// The two closest points, on the mesh and in what is opaque; nothing where it touches, or nothing is opaque.
+/// The two closest points, on the mesh and in the opaque region; empty if it touches, or nothing is opaque.
 [[nodiscard]] std::optional<std::array<Vec3, 2>> closestSegment(const PairDistance& clearance) noexcept;
 
 /// mm from a plane at right angles to an axis of the world to the nearer end of a segment; 0 where it goes through.

@@ -57,7 +57,7 @@ Json labelsJson(const Labels& labels, const MeshAnswer& answer) {
     return json;
 }
 
-/// What is said of one mesh.
+/// Adds one mesh.
 void addMesh(Json& json, const StateReport& report, const MeshAnswer& answer) {
     json["touch"] = hitNumber(answer.pair);
     json["count"] = answer.pair.count;
@@ -99,7 +99,7 @@ Json meshesJson(const StateReport& report) {
     return out;
 }
 
-/// What only an answer has.
+/// Adds the members that only an answer has.
 void addAnswer(Json& json, const StateReport& report, const MeshAnswer& chosen) {
     addMesh(json, report, chosen);
     const LiveAnswer& answer = *report.answer;
@@ -110,7 +110,7 @@ void addAnswer(Json& json, const StateReport& report, const MeshAnswer& chosen) 
     json["answers"] = answer.revision;
 }
 
-/// What each method says of the chosen mesh. Null where that is not shown, empty until it is of this question.
+/// Answers of all methods for the chosen mesh. Null if hidden, empty until they match the question.
 Json comparisonJson(const StateReport& report) {
     if (report.comparison == nullptr) {
         return nullptr;

@@ -15,7 +15,7 @@
 
 namespace voxtact::view {
 
-/// What --report-state writes.
+/// Contents of --report-state.
 struct StateReport {
     const LiveAnswer* answer = nullptr;       ///< null where there is none yet
     const Times* times = nullptr;             ///< must be given
@@ -36,11 +36,11 @@ struct StateReport {
     const Loading* loaded = nullptr;          ///< how that went which was loaded last; null: not known yet
     const Comparison* comparison = nullptr;   ///< of the methods; null where it is not shown
     std::optional<double> saving;             ///< how much of a picture for a file is drawn, or written
-    std::vector<std::string> notes;           ///< what strikes in what is shown
-    std::string status;                       ///< what was done last
+    std::vector<std::string> notes;           ///< notes on the contents
+    std::string status;                       ///< last action
     std::uint64_t frame = 0;                  ///< frames shown until then
     const Times* frameTimes = nullptr;        ///< from one frame to the next, of the last ones; must be given
-    bool settled = false;                     ///< the answer is of what is shown, and the fine picture is there
+    bool settled = false;                     ///< the answer matches the contents, and the fine picture is complete
 };
 
 /// One JSON object.

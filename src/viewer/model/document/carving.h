@@ -19,27 +19,27 @@ struct Hole {
     std::vector<std::byte> after;
 };
 
-/// What is to be done with a volume's voxels, wherever there is a copy of it.
+/// A change of a volume's voxels, for each copy.
 struct HoleWrite {
     std::shared_ptr<const Hole> hole;
-    bool filled = false; ///< what was there before, instead of the hole
+    bool filled = false; ///< restores the previous voxels
 
     [[nodiscard]] const std::vector<std::byte>& voxels() const { return filled ? hole->before : hole->after; }
-    /// What was there until then.
+    /// Returns the previous voxels.
     [[nodiscard]] const std::vector<std::byte>& replaced() const { return filled ? hole->after : hole->before; }
 };
 
-/// Writes to a volume for those who have copies of it, numbered from 0 in their order.
+/// Changes of a volume for its copies, numbered from 0 in order.
 class HoleWrites {
   public:
     void add(HoleWrite write) { kept_.push_back(std::move(write)); }
     /// The number of the next one.
     [[nodiscard]] std::uint64_t end() const { return first_ + kept_.size(); }
-    /// From this number on, of which none may be forgotten. Valid until the next change.
+    /// Returns the changes from this number on, none of which may be dropped. Valid until the next change.
     [[nodiscard]] std::span<const HoleWrite> from(std::uint64_t number) const;
     /// The owner of a copy has done all before this number.
     void forget(std::uint64_t before);
-    /// How many are not forgotten.
+    /// Returns the number of kept changes.
     [[nodiscard]] std::size_t kept() const { return kept_.size(); }
 
   private:
@@ -54,13 +54,13 @@ inline constexpr std::uint64_t kMostHoleVoxels = std::uint64_t{1} << 24U;
 /// ball that voxelBounds() refuses, more than kMostHoleVoxels (LimitExceeded), and a value that no voxel can have.
 [[nodiscard]] Result<Hole> holeOf(const VolumeView& volume, const Ball& ball, double value);
 
-/// Holes in the order in which they were drilled, of which the first so many are there.
+/// Holes in the order of drilling; the first `count` of them exist.
 class Holes {
   public:
     [[nodiscard]] std::size_t drilled() const { return drilled_; }
     /// One more into the volume as it is; those that were filled again are forgotten.
     void add(Hole hole);
-    /// Drills and fills until there are so many, at most as many as are known. Returns what it did, in order.
+    /// Drills and fills until this number of holes exists, at most the known ones. Returns the changes, in order.
     [[nodiscard]] std::vector<HoleWrite> bring(VolumeData& volume, std::size_t number);
 
   private:

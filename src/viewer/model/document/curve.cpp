@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kSteps = 1000;
 
-/// A decimal step so that there are 1000 to 10000 of them in `width`.
+/// Returns a decimal step that divides `width` into 1000 to 10000.
 double decimalStep(double width) {
     return std::pow(10, std::floor(std::log10(width / kSteps)));
 }

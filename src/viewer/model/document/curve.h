@@ -11,7 +11,7 @@ namespace voxtact::view {
 
 using Curve = std::vector<ControlPoint>;
 
-/// The same points.
+/// Returns true if the points are equal.
 [[nodiscard]] bool sameCurve(const Curve& a, const Curve& b) noexcept;
 [[nodiscard]] bool sameColours(const std::vector<ColourPoint>& a, const std::vector<ColourPoint>& b) noexcept;
 
@@ -27,10 +27,10 @@ void movePoint(Curve& curve, std::size_t number, const ControlPoint& to, const V
 /// False, and nothing is removed, where it is the last one.
 bool removePoint(Curve& curve, std::size_t number);
 
-/// With no more digits than a pointer can mean: thousandths of the domain and of the opacity, in decimal steps.
+/// Rounds to the precision of a pointer: thousandths of the domain and of the opacity, in decimal steps.
 [[nodiscard]] ControlPoint rounded(const ControlPoint& point, const ValueRange& domain) noexcept;
 
-/// Where the curve is at or above the threshold, within the domain: ascending, apart from each other.
+/// Returns the ranges of the domain in which the curve reaches the threshold: ascending, disjoint.
 [[nodiscard]] std::vector<ValueRange> opaqueRanges(const Curve& curve, double threshold, const ValueRange& domain);
 
 } // namespace voxtact::view

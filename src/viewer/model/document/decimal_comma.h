@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <string>
 
-/// Dear ImGui drops commas from numbers, so that 1,5 would be 15. What is typed or pasted into a number therefore has a
-/// point for each comma; a path keeps its commas.
+/// Replaces commas by points in typed or pasted numbers, because Dear ImGui drops commas: 1,5 would be 15. Paths keep
+/// their commas.
 namespace voxtact::view {
 
 [[nodiscard]] inline unsigned typedCharacter(unsigned character, bool isPath) noexcept {

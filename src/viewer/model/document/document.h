@@ -13,20 +13,20 @@
 /// All that the window shows, as plain data: what a session file holds.
 namespace voxtact::view {
 
-/// Where a mesh comes from, as the command line takes it.
+/// Source of a mesh, as on the command line.
 struct MeshSource {
     std::string path;
     std::string space = "lps"; ///< what its coordinates mean
     double scale = 1;          ///< mm of its unit
 };
 
-/// Where volume and meshes come from, as the command line takes them.
+/// Sources of volume and meshes, as on the command line.
 struct Sources {
     std::string volume;
     std::vector<MeshSource> meshes; ///< all that were opened; those that were removed too, so that undo has them
     std::string labels;             ///< a label map; empty: none
     std::string labelNames;         ///< what its labels are called; empty: the file beside it, where it is there
-    std::uint32_t coarser = 1;      ///< the volume that is shown has a voxel for so many along each axis
+    std::uint32_t coarser = 1;      ///< each voxel of the shown volume covers this number along each axis
 };
 
 /// A mesh that is there, and where.
@@ -38,14 +38,15 @@ struct Instrument {
     [[nodiscard]] bool operator==(const Instrument&) const = default;
 };
 
-/// What commands change, and undo gives back.
+/// State that commands change, and undo restores.
 struct Edit {
     Curve curve;
     std::vector<ColourPoint> colours; ///< of the picture
     double threshold = kDefaultThreshold;
     std::vector<Instrument> instruments{1}; ///< at least one
-    std::size_t chosen = 0;                 ///< of them: what is moved. Undo gives it back, but it is no command
-    std::size_t holes = 0;                  ///< that are drilled, of those that are known
+    std::size_t chosen = 0;                 ///< index of the instrument that moves. Undo restores it, but choosing is
+                                            ///< no command
+    std::size_t holes = 0;                  ///< number of holes that are drilled, of the known ones
 
     [[nodiscard]] const Instrument& instrument() const { return instruments[chosen]; }
     /// `world_from_object` of the chosen instrument.
@@ -59,7 +60,7 @@ struct Edit {
     }
 };
 
-/// How the answer is found.
+/// Method of the answer.
 struct MethodChoice {
     CountingMethod count = CountingMethod::Cpu;
     Projection projection = Projection::Certified;
@@ -70,10 +71,10 @@ struct MethodChoice {
 /// Panes that can have the whole middle of the window.
 enum class Maximised { None, Picture, Slice0, Slice1, Slice2 };
 
-/// Of the panels.
+/// Colours of the panels.
 enum class Theme { Dark, Light };
 
-/// What is on, and how far a step goes.
+/// Visible parts and step sizes.
 struct Shown {
     GizmoAxes handleAxes = GizmoAxes::World;
     bool handles = true;
@@ -96,7 +97,7 @@ struct Document {
     std::size_t pose = 0;               ///< the one of the list that was taken last
     std::optional<MethodChoice> method; ///< nothing: what the machine is best at
     std::optional<Camera> camera;       ///< nothing: framing the volume
-    std::optional<Shown> shown;         ///< nothing: as the window has it
+    std::optional<Shown> shown;         ///< empty: the window's defaults
     std::vector<Ball> holes;            ///< in the order in which they were drilled, at least edit.holes
     std::optional<Vec3> cursor;         ///< world, mm: where the slices are; nothing: the middle of the volume
 };

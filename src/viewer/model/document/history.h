@@ -20,7 +20,7 @@ template <class Value> class History {
         }
         undone_.clear();
         if (!merge.empty() && merge == merge_ && !done_.empty()) {
-            return; // what was before the first of them is kept already
+            return; // the state before the first of them is already kept
         }
         done_.push_back(before);
         merge_ = merge;

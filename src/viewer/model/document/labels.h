@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-/// Which structure is where, in words.
+/// Names of structures at positions.
 namespace voxtact::view {
 
 /// A label map, and what its labels are called; a label may have no name.
@@ -27,8 +27,8 @@ struct Labels {
 /// "7 skull", or "7" where it has no name.
 [[nodiscard]] std::string labelText(const Labels& labels, std::int32_t label);
 
-/// Those with the most survivors first; of equal ones the lowest label. Without 0, where there is another: the
-/// background says nothing then.
+/// Sorts by passing fragments, descending; equal ones by label. Drops 0 if there is another label: the background has
+/// no information.
 [[nodiscard]] std::vector<LabelCount> touchedLabels(std::vector<LabelCount> counts);
 
 /// "x, y, z mm: value", and with labels "7 skull". `labels` may be null.

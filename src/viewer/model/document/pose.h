@@ -19,24 +19,24 @@ enum class Axes { World, Own };
 /// is the tip of the builtin instruments, stays where it is.
 [[nodiscard]] Mat4 turned(const Mat4& world_from_object, std::size_t axis, double degrees, Axes axes) noexcept;
 
-/// The same about an axis of unit length in the world.
+/// Like turned(), about a unit axis in world space.
 [[nodiscard]] Mat4 turnedAbout(const Mat4& world_from_object, const Vec3& axis, double degrees) noexcept;
 
-/// mm along an axis: no farther is anything put, whatever is typed or dragged.
+/// mm along an axis: maximum of typed and dragged positions.
 inline constexpr double kFarthestPlace = 1e12;
 
-/// The same pose with the object's origin at a point of the world, as far as kFarthestPlace. What is not a number
-/// stays.
+/// Returns the pose with the object's origin at a world point, limited to kFarthestPlace. Coordinates that are not
+/// finite stay.
 [[nodiscard]] Mat4 placedAt(const Mat4& world_from_object, const Vec3& world) noexcept;
 
-/// Where the object's origin is, mm.
+/// Position of the object's origin, mm.
 [[nodiscard]] Vec3 originOf(const Mat4& world_from_object) noexcept;
 
 /// The object's own axis in the world, of unit length; the world's axis where it has no length.
 [[nodiscard]] Vec3 axisOf(const Mat4& world_from_object, std::size_t axis) noexcept;
 
-/// The object turned against the world, in degrees: about x, then y, then z of the world. Of the rotation alone: that
-/// of its x axis, and of its y axis as far as that stands upright on it. Where x goes along the world's z, z is 0.
+/// Rotation of the object in degrees: about x, then y, then z of the world. For shearing poses, that of the x axis, and
+/// of the y axis orthogonalised to it. If x points along the world's z, z is 0.
 [[nodiscard]] Vec3 anglesOf(const Mat4& world_from_object) noexcept;
 
 /// Angles that were typed, and the pose that they made: others would make the same one.
@@ -45,10 +45,10 @@ struct TypedAngles {
     Vec3 degrees{};
 };
 
-/// Those that were typed for this pose; else the same as without.
+/// Returns the typed angles if they belong to this pose; else anglesOf(pose).
 [[nodiscard]] Vec3 anglesOf(const Mat4& world_from_object, const std::optional<TypedAngles>& typed) noexcept;
 
-/// The same place and shape, turned so that anglesOf() is a rotation by `degrees`. An angle that is not finite stays.
+/// Returns the same position and shape, rotated so that anglesOf() is `degrees`. Angles that are not finite stay.
 [[nodiscard]] Mat4 turnedTo(const Mat4& world_from_object, const Vec3& degrees) noexcept;
 
 } // namespace voxtact::view

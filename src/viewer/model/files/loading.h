@@ -7,9 +7,9 @@
 
 namespace voxtact::view {
 
-/// What is read and made on another thread, to be shown instead; and, when it is there, how that went.
+/// Progress and result of reading on another thread.
 struct Loading {
-    std::string step;            ///< what is done
+    std::string step;            ///< current step
     std::optional<double> share; ///< of the step, 0..1
     double seconds = 0;          ///< since it began
     double longestFrame = 0;     ///< ms, from one frame to the next since then

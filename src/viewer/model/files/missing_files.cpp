@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 bool isThere(const std::string& path) {
     std::error_code ignored;
-    // Of a file with several images one is named behind a '#'.
+    // The part after '#' names one of several images in a file.
     return fs::exists(path, ignored) || fs::exists(path.substr(0, path.rfind('#')), ignored);
 }
 

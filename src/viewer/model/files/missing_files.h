@@ -15,10 +15,10 @@ struct MissingFile {
     std::string path; ///< where it should be, or a file of the same name beside the session
 };
 
-/// Those of a session that was read from a file, or, with an empty path, from nowhere. What is builtin is never gone.
+/// Missing files of a session read from a file, or, with an empty path, from nowhere. Builtins never are.
 [[nodiscard]] std::vector<MissingFile> missingFiles(Sources sources, const std::filesystem::path& session);
 
-/// The sources with other paths for what is missing.
+/// Returns the sources with other paths for the missing files.
 [[nodiscard]] Sources found(Sources sources, const std::vector<MissingFile>& files);
 
 } // namespace voxtact::view

@@ -44,7 +44,7 @@ Result<void> openPoses(const std::filesystem::path& path, State& state) {
     return {};
 }
 
-/// The document with another volume, or with a mesh more: what is shown makes an instrument of it when it is there.
+/// Returns the document with another volume, or an additional mesh, which becomes an instrument once loaded.
 Document withFile(Document document, FileKind kind, const std::string& path) {
     Sources& sources = document.sources;
     if (kind == FileKind::Mesh) {
@@ -64,7 +64,7 @@ Document withFile(Document document, FileKind kind, const std::string& path) {
     return document;
 }
 
-/// Of several files at once none takes the place of another.
+/// Several files opened at once do not replace each other.
 void want(State& state, FileKind kind, const std::string& path) {
     const bool also = state.wanted && state.wanted->kind != FileKind::Session;
     const FileKind before = also ? state.wanted->kind : kind;

@@ -6,22 +6,21 @@
 #include <filesystem>
 #include <string>
 
-/// What is opened while the window is there: by its menu, or dropped on it.
+/// Files opened by the menu, or dropped on the window.
 namespace voxtact::view {
 
-/// In small letters, with its dot.
+/// In lower case, with its dot.
 [[nodiscard]] std::string endingOf(const std::filesystem::path& path);
 
-/// By the ending: STL, OBJ, PLY, OFF, glTF and GLB are meshes, .txt are poses, .json is a session where it says so and
-/// else a transfer function. All else is a volume, folders too. Refuses a .json that cannot be read.
+/// By the ending: STL, OBJ, PLY, OFF, glTF and GLB are meshes, .txt are poses, .json is a session if marked so, else a
+/// transfer function. All others, and folders, are volumes. Refuses an unreadable .json.
 [[nodiscard]] Result<FileKind> kindOfFile(const std::filesystem::path& path);
 
 /// Poses and transfer functions are commands that undo takes back. Of a volume, a mesh or a session only the wish is
 /// left in State::wanted; a session is read for it. Nothing changes where there is an error.
 [[nodiscard]] Result<void> openFile(const std::filesystem::path& path, State& state);
 
-/// Opens all that was dropped on the window since the last call, one after the other; of what cannot be opened the last
-/// is complained of.
+/// Opens the files dropped since the last call, one after the other; reports the last error.
 void takeDropped(State& state);
 
 } // namespace voxtact::view

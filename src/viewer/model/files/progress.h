@@ -10,18 +10,17 @@
 
 namespace voxtact::view {
 
-/// How far work on another thread is, and whether it is still wanted.
-/// Thread-safety: safe from any thread.
+/// Progress and cancellation of work on another thread. Thread-safety: safe from any thread.
 class Progress {
   public:
     struct Now {
-        std::string step;            ///< what is done: "reading head.nii.gz"; empty before the first
+        std::string step;            ///< current step: "reading head.nii.gz"; empty before the first one
         std::optional<double> share; ///< of the step, 0..1; nothing where that is not known
     };
 
     /// The worker begins a step. Cancelled where the work is not wanted any more.
     [[nodiscard]] Result<void> begin(std::string step);
-    /// How much of the step is done, 0..1: whether to go on.
+    /// Sets the share of the step, 0..1; returns false if cancelled.
     [[nodiscard]] bool tell(double share);
     [[nodiscard]] Now now() const;
 

@@ -5,11 +5,11 @@
 
 #include <filesystem>
 
-/// What the file menu saves. Nothing goes over a file that is shown, or was read for what is shown, nor over one that
-/// is there already and is of another kind. Files get a temporary name first, and their own when they are complete.
+/// Saving by the file menu. Refuses to overwrite shown files, their sources, and existing files of another kind. Writes
+/// to a temporary name, then renames.
 namespace voxtact::view {
 
-/// What would be refused there, before anybody is asked whether a file is to be replaced.
+/// Checks a path before the user confirms a replacement.
 [[nodiscard]] Result<void> checkSession(const std::filesystem::path& path, const State& state);
 [[nodiscard]] Result<void> checkFunction(const std::filesystem::path& path, const State& state);
 [[nodiscard]] Result<void> checkPose(const std::filesystem::path& path, const State& state);

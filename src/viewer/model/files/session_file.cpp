@@ -24,9 +24,9 @@ constexpr const char* kMark = "voxtact_session";
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{64} << 20U;
 /// mm; of a camera farther away the matrices cannot be used.
 constexpr double kFarthest = 1e12;
-/// The same of a camera that sees so little there.
+/// Maximum distance relative to the camera's height.
 constexpr double kFarthestInHeights = 1e8;
-/// Of angles beyond, doubles have no fractions of a degree left that would be meant.
+/// For larger angles, doubles have no meaningful fractions of a degree.
 constexpr double kMostDegrees = 1e9;
 
 /// Row by row, as pose files have them.
@@ -71,7 +71,7 @@ void readSources(SessionReader& reader, Sources& sources) {
     }
 }
 
-/// Of an object with the members mesh, mesh_space and mesh_scale; `at`: its name with a dot, or nothing.
+/// Reads an object with the members mesh, mesh_space and mesh_scale; `at`: its name with a dot, or empty.
 MeshSource readMesh(SessionReader& reader, const std::string& at) {
     MeshSource mesh;
     mesh.path = reader.text(at + "mesh", "");
@@ -155,7 +155,7 @@ void readInstrument(SessionReader& reader, Document& document) {
     document.pose = static_cast<std::size_t>(number);
 }
 
-/// An element of `meshes`, whose members are looked for in it alone.
+/// Reads an element of `meshes`, only from its own members.
 Instrument readMember(SessionReader& reader, const std::string& at, const Json& json, Document& document) {
     SessionReader member(json);
     Instrument out;
@@ -182,7 +182,7 @@ Instrument readMember(SessionReader& reader, const std::string& at, const Json& 
     return out;
 }
 
-/// Where there are several, they are instead of the one.
+/// Several instruments replace the single one.
 void readInstruments(SessionReader& reader, Document& document) {
     const Json* meshes = reader.find("meshes");
     if (meshes == nullptr || !reader.wrong().empty()) {
@@ -206,7 +206,7 @@ void readInstruments(SessionReader& reader, Document& document) {
     document.edit.chosen = static_cast<std::size_t>(chosen);
 }
 
-/// Where it is not one that is shown.
+/// Unless there is exactly one visible instrument.
 void writeInstruments(Json& json, const Document& document) {
     const Edit& edit = document.edit;
     if (edit.instruments.size() == 1 && edit.instrument().shown) {
@@ -352,7 +352,7 @@ std::string sessionText(const Document& document) {
                           {"half_height", document.camera->halfHeight}};
     }
     writeShown(json, document);
-    // What is no UTF-8, which a path may be, would otherwise throw.
+    // A path that is not UTF-8 would otherwise throw.
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -9,7 +9,7 @@
 
 namespace voxtact::view {
 
-/// Reads members, and keeps what was wrong first; what is read after that means nothing.
+/// Reads members and keeps the first error; later members are then meaningless.
 class SessionReader {
   public:
     using Json = nlohmann::ordered_json;
@@ -21,7 +21,7 @@ class SessionReader {
         wrong_ = wrong_.empty() ? member + ": " + why : wrong_;
     }
 
-    /// With a text that names the member.
+    /// Sets an error that names the member.
     void refuse(const std::string& why) { wrong_ = wrong_.empty() ? why : wrong_; }
 
     /// The member "a.b", or null.
@@ -61,7 +61,7 @@ class SessionReader {
         const Json* json = find(path);
         return json == nullptr ? standard : number(path, json);
     }
-    /// So many numbers.
+    /// Reads N numbers.
     template <std::size_t N> std::array<double, N> numbers(const std::string& path, const Json& json) {
         std::array<double, N> out{};
         if (!json.is_array() || json.size() != N) {

@@ -4,12 +4,12 @@
 #include "viewer/model/document/document.h"
 #include "viewer/model/files/session_reader.h"
 
-/// The parts of a session that say what is drilled and what is on.
+/// Reads and writes the holes and the visible parts of a session.
 namespace voxtact::view {
 
 void readHoles(SessionReader& reader, Document& document);
 void readShown(SessionReader& reader, Document& document);
-/// Both.
+/// Writes holes and visible parts.
 void writeShown(SessionReader::Json& json, const Document& document);
 
 } // namespace voxtact::view

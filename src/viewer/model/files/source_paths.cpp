@@ -42,7 +42,7 @@ Sources seenFrom(Sources sources, const fs::path& folder) {
     return changed(std::move(sources), [&](const fs::path& path) {
         const fs::path whole = wholePath(path);
         const fs::path relative = whole.lexically_relative(base);
-        // With "..", also farther down, it may be elsewhere: behind a link.
+        // A path with ".." may lead elsewhere, behind a link.
         return relative.empty() || std::ranges::find(relative, fs::path("..")) != relative.end() ? whole : relative;
     });
 }

@@ -10,19 +10,19 @@
 /// The paths of the files that a document is about.
 namespace voxtact::view {
 
-/// One of them, wherever it is; the path may be empty, or of something builtin.
+/// A path in the sources; may be empty or a builtin.
 struct SourceMember {
     std::string name; ///< "volume", "mesh" or of several "mesh 1", "label map" or "label names"
     std::string* path;
 };
-/// All of them, as long as `sources` stays as it is.
+/// Returns all paths, valid while `sources` is unchanged.
 [[nodiscard]] std::vector<SourceMember> membersOf(Sources& sources);
 
-/// Whether a path is that of a file or a folder.
+/// Returns true for the path of a file or folder.
 [[nodiscard]] bool isFile(const std::string& path);
 
-/// As they stand in a session in `folder`: relative where they are in it or below, else absolute. So a session that is
-/// moved with its files still finds them, and no other files are taken for them.
+/// Returns the paths for a session in `folder`: relative inside the folder, else absolute. A session moved with its
+/// files still finds them, and never finds other files.
 [[nodiscard]] Sources seenFrom(Sources sources, const std::filesystem::path& folder);
 /// The other way round: relative paths are from `folder` on.
 [[nodiscard]] Sources foundFrom(Sources sources, const std::filesystem::path& folder);

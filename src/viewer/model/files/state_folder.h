@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-/// What the window keeps from run to run.
+/// State that the window keeps between runs.
 namespace voxtact::view {
 
 /// $XDG_STATE_HOME/voxtact, else ~/.local/state/voxtact; empty where neither is known. It need not be there.
@@ -17,11 +17,11 @@ class RecentFiles {
   public:
     static constexpr std::size_t kMost = 12;
 
-    /// Of a file as add() writes it; an empty path, a missing file and one that is anything else: none.
+    /// Reads a file written by add(); an empty path, a missing or an invalid file give an empty list.
     explicit RecentFiles(std::filesystem::path file = {});
 
     [[nodiscard]] const std::vector<std::string>& paths() const { return paths_; }
-    /// As an absolute path; written at once. What is builtin is no file.
+    /// Adds a file as an absolute path, and writes immediately. Skips builtins.
     void add(const std::string& path);
 
   private:

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-/// The eye of the large picture: orthographic, round a point that it looks at.
+/// Camera of the large picture: orthographic, around a target point.
 namespace voxtact::view {
 
 /// mm; Camera::halfHeight keeps to these.
@@ -24,14 +24,14 @@ struct Extent {
     std::uint32_t height = 1;
 };
 
-/// Looks at the middle of a volume and frames it, whatever the direction.
+/// Returns a camera that frames a volume from a direction.
 [[nodiscard]] Camera framing(const Grid& grid, const ViewDirection& direction) noexcept;
 
-/// Turned by a drag of so many pixels: a picture's height is half a turn. The elevation stays between -90 and 90.
+/// Rotates by a drag in pixels: a picture's height is half a turn. Limits the elevation to -90..90.
 void orbit(Camera& camera, double right, double down, const Extent& extent) noexcept;
-/// What is under the pointer stays under it.
+/// Keeps the point under the pointer there.
 void pan(Camera& camera, double right, double down, const Extent& extent) noexcept;
-/// By a factor, below 1 is nearer; what is at the pixel x, y stays there.
+/// Zooms by a factor, below 1 nearer; keeps the point at pixel x, y there.
 void zoom(Camera& camera, double factor, double x, double y, const Extent& extent) noexcept;
 
 /// `depth`: mm before and behind the target that are to be seen.

@@ -5,8 +5,8 @@
 
 #include <vector>
 
-/// The axis of values below the transfer function's curve, which can be zoomed. Pure functions; a `whole` is a domain
-/// whose ends are finite and ascending, a `shown` a part of it.
+/// Zoomable axis of values below the transfer function's curve. Pure functions; `whole` is a domain with finite,
+/// ascending ends, `shown` a part of it.
 namespace voxtact::view {
 
 /// Values to the right.
@@ -15,7 +15,7 @@ struct ChartAxis {
     double width = 1; ///< the same, above 0
     ValueRange shown; ///< from the left side to the right one
 
-    /// Where a value is; beyond the sides for one that is not shown.
+    /// Position of a value; beyond the sides if it is not visible.
     [[nodiscard]] double at(double value) const noexcept {
         return left + (value - shown.lo) / (shown.hi - shown.lo) * width;
     }
@@ -24,8 +24,8 @@ struct ChartAxis {
     }
 };
 
-/// So many times as wide (below 1: nearer), and `about` stays where it is, as far as the whole allows it. Not narrower
-/// than a hundred thousandth of the whole.
+/// Scales the visible range by a factor (below 1: nearer), keeping `about` in place as far as the domain allows.
+/// Minimum: a hundred thousandth of the domain.
 [[nodiscard]] ValueRange zoomed(const ValueRange& shown, const ValueRange& whole, double factor, double about) noexcept;
 
 /// Moved by a difference of values, within the whole.

@@ -18,7 +18,7 @@ double snapped(double value, double step) {
     return step > 0 ? std::round(value / step) * step : value;
 }
 
-/// How far along the axis, from the gizmo, the ray passes it; nothing where the two are nearly parallel.
+/// Returns the distance along the axis, from the gizmo, of the point nearest to the ray; empty if nearly parallel.
 std::optional<double> alongAxis(const Gizmo& gizmo, std::size_t axis, const Ray& ray) {
     const Vec3& line = gizmo.axes[axis];
     const double cosine = dot(line, ray.direction);
@@ -30,7 +30,7 @@ std::optional<double> alongAxis(const Gizmo& gizmo, std::size_t axis, const Ray&
     return (dot(between, line) - cosine * dot(between, ray.direction)) / sine2;
 }
 
-/// Where the ray meets the plane across an axis, from the gizmo on; nothing where it is edge-on.
+/// Returns the intersection of the ray and the plane across an axis, relative to the gizmo; empty if edge-on.
 std::optional<Vec3> inPlane(const Gizmo& gizmo, std::size_t axis, const Ray& ray) {
     if (edgeOn(gizmo, axis, ray.direction)) {
         return std::nullopt;

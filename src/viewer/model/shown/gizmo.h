@@ -14,7 +14,7 @@ struct Ray {
     Vec3 origin{};
     Vec3 direction{0, 0, 1};
 };
-/// Of a pixel of the camera's picture.
+/// Ray of a pixel in the camera's picture.
 [[nodiscard]] Ray rayThrough(const Camera& camera, const Extent& extent, double x, double y) noexcept;
 
 /// Whose axes the handles are along.
@@ -29,7 +29,7 @@ struct Gizmo {
     std::array<Vec3, 3> axes{}; ///< of unit length, at right angles to each other
     double size = 1;            ///< mm: the length of an arrow
 };
-/// Of an instrument; in a pose that shears, own axes are those of its rotation.
+/// Gizmo of an instrument; for shearing poses, own axes are those of its rotation.
 [[nodiscard]] Gizmo gizmoOf(const Mat4& world_from_object, const Camera& camera, GizmoAxes axes, double size) noexcept;
 
 /// Arrows along an axis, squares across it, rings round it.
@@ -50,7 +50,7 @@ inline constexpr double kRingRadius = 0.8;
 /// A square's or a ring's plane is seen so flatly that it cannot be taken.
 [[nodiscard]] bool edgeOn(const Gizmo& gizmo, std::size_t axis, const Vec3& direction) noexcept;
 
-/// What a ray takes: arrows and rings that it passes by at `reach` mm at most, the nearest of them; else a square.
+/// Returns the handle under a ray: the nearest arrow or ring within `reach` mm, else a square.
 [[nodiscard]] Handle handleAt(const Gizmo& gizmo, const Ray& ray, double reach) noexcept;
 
 /// Multiples that a drag keeps to; 0: none.
@@ -59,8 +59,8 @@ struct Snap {
     double degrees = 0;
 };
 
-/// The pose `world_from_object` after a drag of a handle of its gizmo, from one ray to another: what was under the
-/// first is under the second, as far as the handle lets it. The same pose where that is not defined.
+/// Returns the pose `world_from_object` after dragging a handle from one ray to another: the point under the first
+/// moves to the second, as far as the handle allows. Returns the same pose if undefined.
 [[nodiscard]] Mat4 dragged(const Mat4& world_from_object, const Gizmo& gizmo, const Handle& handle, const Ray& from,
                            const Ray& to, const Snap& snap) noexcept;
 

@@ -10,7 +10,7 @@
 
 namespace voxtact::view {
 
-/// How many voxels have which value, in parts so fine that it can be shown for any range of values.
+/// Histogram of voxel values, fine enough for any visible range.
 struct Histogram {
     ValueRange range;                  ///< of which `counts` are equal parts; at its upper end belongs to the last one
     std::vector<std::uint64_t> counts; ///< voxels outside of the range are in none
@@ -20,10 +20,10 @@ struct Histogram {
     }
 };
 
-/// Of the values of a domain: of whole numbers a part for each, with the number in its middle; else 65,536 parts.
+/// Counts the values of a domain: whole numbers in one bin each, centred; others in 65,536 bins.
 [[nodiscard]] Histogram histogramOf(const VolumeView& volume, const ValueRange& domain);
 
-/// What of a histogram is shown as bars side by side.
+/// Visible part of a histogram, as adjacent bars.
 struct Bars {
     double first = 0; ///< where the first one begins
     double width = 1; ///< of each: a whole number of the histogram's parts

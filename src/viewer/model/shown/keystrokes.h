@@ -19,7 +19,7 @@ class Keystrokes {
 
     void addLetter(unsigned letter) { waiting_.push_back({letter, std::nullopt}); }
     void addKey(int key) { waiting_.push_back({0, key}); }
-    /// What the next frame has, which is gone from here then.
+    /// Removes and returns the keystrokes of the next frame.
     [[nodiscard]] Frame next() {
         Frame frame;
         while (!waiting_.empty() && !frame.key) {
@@ -33,9 +33,9 @@ class Keystrokes {
         }
         return frame;
     }
-    /// Whether there is something for a frame after.
+    /// True if a later frame has keystrokes.
     [[nodiscard]] bool behind() const { return !waiting_.empty(); }
-    /// Whether a key has still to go down.
+    /// True if a key press is pending.
     [[nodiscard]] bool waits(int key) const {
         return std::ranges::any_of(waiting_, [key](const Stroke& stroke) { return stroke.key == key; });
     }

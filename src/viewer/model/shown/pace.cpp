@@ -34,7 +34,7 @@ void Pace::tookFine(double pixels, double milliseconds) {
 Extent Pace::coarse(const Extent& full) const {
     const double pixels = static_cast<double>(full.width) * full.height;
     double scale = std::clamp(std::sqrt(budget_ / coarseCost_ / pixels), kLeastScale, 1.0);
-    // In steps: a picture whose size changes with each frame shimmers.
+    // In steps: a picture whose size changes with each frame flickers.
     constexpr double kSteps = 12;
     scale = std::floor(scale * kSteps + 1e-9) / kSteps;
     const auto side = [scale](std::uint32_t length) {

@@ -7,18 +7,18 @@
 
 namespace voxtact::view {
 
-/// How much of a picture a frame may make, from how long the ones before it took.
+/// Chooses the size of a frame's picture from the duration of earlier ones.
 class Pace {
   public:
     /// Milliseconds that a frame's picture may take.
     explicit Pace(double budget) : budget_(budget) {}
 
-    /// A coarse picture of so many pixels took so long.
+    /// Records the duration of a coarse picture of this number of pixels.
     void tookCoarse(double pixels, double milliseconds);
-    /// So many pixels of a fine one, which cost more each.
+    /// Records the duration of pixels of a fine picture, which are slower.
     void tookFine(double pixels, double milliseconds);
 
-    /// Of the coarse picture: as large as fits, not larger than `full`, with its shape.
+    /// Size of the coarse picture: the largest that fits, at most `full`, with its aspect ratio.
     [[nodiscard]] Extent coarse(const Extent& full) const;
     /// Rows of the fine picture for a frame; at least 1.
     [[nodiscard]] std::uint32_t rows(const Extent& full) const;
@@ -30,8 +30,8 @@ class Pace {
     double fineCost_ = 2e-3;
 };
 
-/// Of a picture that takes up the upper left part of a texture: how large that is, and how far a sample may go so that
-/// none of the texels round it lies beyond. Shares of the texture's sides.
+/// Part of a texture in its upper left: its size, and the limit of sample positions whose texels all lie inside.
+/// Fractions of the texture's sides.
 struct SampledPart {
     std::array<float, 2> used{1, 1};
     std::array<float, 2> most{1, 1};

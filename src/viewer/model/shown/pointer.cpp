@@ -17,7 +17,7 @@ void Pointer::press(std::size_t button, double seconds, double reach) {
         return;
     }
     Click& last = last_[button];
-    // A press is told of at the next frame: it may have been as early as the one before.
+    // A press reaches the next frame: it may be as early as the previous one.
     const bool soon = std::min(looked_, seconds) - last.seconds < kSoon;
     const bool near = std::hypot(place_[0] - last.at[0], place_[1] - last.at[1]) < reach;
     last = {place_, seconds, last.number > 0 && soon && near ? last.number + 1 : 1};

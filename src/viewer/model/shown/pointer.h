@@ -10,13 +10,13 @@
 
 namespace voxtact::view {
 
-/// What the pointer does between two frames, in its order and each at its place: a slow frame neither loses a click nor
-/// takes the way to it for a drag.
+/// Pointer events between two frames, in order and with positions: a slow frame neither misses a click nor mistakes
+/// earlier motion for a drag.
 class Pointer {
   public:
     static constexpr std::size_t kButtons = 3;
 
-    /// What a frame sees.
+    /// Pointer state of a frame.
     struct Seen {
         std::optional<Point2> at; ///< where a button changed; nothing: wherever the pointer is now
         std::array<bool, kButtons> down{};
@@ -28,9 +28,9 @@ class Pointer {
     void press(std::size_t button, double seconds, double reach);
     void release(std::size_t button);
 
-    /// For a frame that begins then: as far as the next change of a button.
+    /// Returns the state for a frame that begins now: up to the next change of a button.
     [[nodiscard]] Seen next(double seconds);
-    /// Whether frames have not seen all of it.
+    /// True if events are pending.
     [[nodiscard]] bool behind() const noexcept { return !steps_.empty(); }
 
   private:

@@ -13,7 +13,7 @@ SlicePlace slicePlace(const SliceKind& kind, const Grid& grid, const Vec3& curso
     place.clip_from_world = viewFrom(kind.direction, grid, std::nullopt, sides(extent.width), sides(extent.height));
     // The framing of a good grid is not singular.
     place.world_from_clip = inverse(place.clip_from_world).value();
-    // Of the slice's axis every point has the cursor's coordinate.
+    // Every point has the cursor's coordinate along the slice's axis.
     for (std::size_t column = 0; column < 3; ++column) {
         place.world_from_clip[4 * column + kind.axis] = 0;
     }

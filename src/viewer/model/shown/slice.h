@@ -11,7 +11,7 @@
 /// Slices through the volume along the world's planes.
 namespace voxtact::view {
 
-/// A slice as radiologists look at it, and the letters of the patient's sides at its edges.
+/// A slice in radiological orientation, with the letters of the patient's sides.
 struct SliceKind {
     const char* name;
     ViewDirection direction;
@@ -25,13 +25,13 @@ inline constexpr std::array<SliceKind, 3> kSlices{{{"axial", {0, -90}, 2, "R", "
                                                    {"coronal", {0, 0}, 1, "R", "L", "S", "I"},
                                                    {"sagittal", {90, 0}, 0, "A", "P", "S", "I"}}};
 
-/// Where a slice is in its picture.
+/// Position of a slice in its picture.
 struct SlicePlace {
     Mat4 clip_from_world{}; ///< orthographic, along the world's axis
     Mat4 world_from_clip{}; ///< onto the plane, whatever the depth
 };
 
-/// Of the slice through `cursor`, the volume framed in a picture of that size.
+/// Position of the slice through `cursor`, with the volume framed in a picture of that size.
 [[nodiscard]] SlicePlace slicePlace(const SliceKind& kind, const Grid& grid, const Vec3& cursor, const Extent& extent);
 
 /// x and y of a picture, 0..1 from its upper left corner.
@@ -41,7 +41,7 @@ using Point2 = std::array<double, 2>;
 [[nodiscard]] Vec3 worldAt(const SlicePlace& place, const Point2& at);
 [[nodiscard]] Point2 pictureAt(const SlicePlace& place, const Vec3& world);
 
-/// So many decimals of a millimetre; more where voxels are so small that these would not tell them apart.
+/// Number of decimals of a millimetre; more if voxels are too small to distinguish.
 [[nodiscard]] int decimalsOn(const Grid& grid, int decimals);
 /// A length or a place with that many; zero has no sign.
 [[nodiscard]] std::string mmText(const Grid& grid, int decimals, double mm);
@@ -53,7 +53,7 @@ struct OutlinePiece {
     std::uint32_t triangle = 0;
 };
 
-/// Where the mesh cuts the plane of the world at `at` mm of an axis.
+/// Returns the intersection of the mesh with the plane at `at` mm of a world axis.
 [[nodiscard]] std::vector<OutlinePiece> outline(const MeshView& mesh, const Mat4& world_from_object, std::size_t axis,
                                                 double at, const SlicePlace& place);
 

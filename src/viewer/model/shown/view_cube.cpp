@@ -28,7 +28,7 @@ std::optional<std::size_t> sideAt(const ViewCube& cube, const Camera& camera, co
     for (const SeenSide& side : seenSides(camera)) {
         const double x = (at[0] - cube.middle[0]) / cube.half - side.middle[0];
         const double y = (at[1] - cube.middle[1]) / cube.half - side.middle[1];
-        // In its letter's directions: a parallelogram.
+        // Area of the side's parallelogram.
         const double area = side.right[0] * side.up[1] - side.right[1] * side.up[0];
         const double along = (x * side.up[1] - y * side.up[0]) / area;
         const double above = (side.right[0] * y - side.right[1] * x) / area;

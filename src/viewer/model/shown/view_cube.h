@@ -7,8 +7,8 @@
 #include <array>
 #include <optional>
 
-/// The cube of the patient's sides in a corner of the large picture: it turns with the camera, and a side of it that is
-/// clicked is examined. Pure functions.
+/// Cube of the patient's sides in a corner of the large picture: it rotates with the camera; a click on a side selects
+/// that view. Pure functions.
 namespace voxtact::view {
 
 struct ViewCube {
@@ -16,8 +16,8 @@ struct ViewCube {
     double half = 0;                ///< an edge's half, points
 };
 
-/// In the upper right corner of a picture of the window. `line`: the height of a line of text there, points. Nothing
-/// where the picture is too small for it.
+/// Returns the cube in the upper right corner of a picture. `line`: height of a line of text, points. Empty if the
+/// picture is too small.
 [[nodiscard]] std::optional<ViewCube> cubeIn(const std::array<double, 2>& corner, const std::array<double, 2>& size,
                                              double line) noexcept;
 
@@ -28,7 +28,7 @@ struct ViewCube {
 [[nodiscard]] std::optional<std::size_t> sideAt(const ViewCube& cube, const Camera& camera,
                                                 const std::array<double, 2>& at);
 
-/// Looks at a side of kPatientSides, and at what it examined before.
+/// Looks at a side of kPatientSides, with the same target.
 void lookAtSide(Camera& camera, std::size_t side) noexcept;
 
 } // namespace voxtact::view

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "host/touch/cells/run_look.h"
+#include "host/touch/cells/point_hull.h"
 #include "host/touch/cells/volume_cells.h"
 #include "host/touch/placed_vertices.h"
 
@@ -16,18 +16,18 @@ inline CellBox cellsOf(const shader::CertifiedBounds& bounds) {
     return {{bounds.firstX, bounds.firstY, bounds.firstZ}, {bounds.lastX, bounds.lastY, bounds.lastZ}};
 }
 
-/// Runs of triangles that one look at each leaves, and in which cells.
-template <class Kept> class LikelyRuns {
+/// Runs of triangles that pass the bounds test, with the cells that they may touch.
+template <class Kept> class CandidateRuns {
   public:
     struct Run {
         std::uint32_t number = 0;
-        bool isLooked = false; ///< false: it is too large for a look, or its place too uncertain; any cell may be
+        bool isTested = false; ///< false: too large or too imprecise for the test; any cell may touch
         CellSet cells;
-        std::size_t firstCell = 0; ///< what is known of these
+        std::size_t firstCell = 0; ///< occupancy of the cells
     };
 
     /// All must outlive it.
-    LikelyRuns(const CertifiedJob& job, const VolumeCells<Kept>& cells, PlacedVertices& placed)
+    CandidateRuns(const CertifiedJob& job, const VolumeCells<Kept>& cells, PlacedVertices& placed)
         : mesh_(job.mesh), item_(job.occupancy.item()), opaque_(job.occupancy.opaque()), cells_(cells),
           placed_(placed) {}
 
@@ -35,7 +35,7 @@ template <class Kept> class LikelyRuns {
 
     /// Adds a run if it may touch. `probe(triangle, vertex, delta)` is then called for its vertices, as long as
     /// `goesOn()`; with no vertex where its place is too uncertain.
-    template <class GoesOn, class Probe> void look(std::uint32_t number, const GoesOn& goesOn, const Probe& probe) {
+    template <class GoesOn, class Probe> void test(std::uint32_t number, const GoesOn& goesOn, const Probe& probe) {
         RunPoints points;
         const std::size_t first = placed_.begin(number);
         const RunVertices& vertices = mesh_.runVertices;
@@ -49,8 +49,8 @@ template <class Kept> class LikelyRuns {
         }
         Run run{number, false, {}, known_.size()};
         if (bounds.usable && run.cells.begin(box)) {
-            run.isLooked = true;
-            lookAtCells(points.hull(bounds.delta), box, run);
+            run.isTested = true;
+            testCells(points.hull(bounds.delta), box, run);
             if (run.cells.empty()) {
                 return;
             }
@@ -61,8 +61,8 @@ template <class Kept> class LikelyRuns {
         }
     }
 
-    /// Calls `visit(x, y, z, cell)` for the cells of a box that a looked run may touch in, as long as `goesOn()`;
-    /// `cell` is of a delta that is not less than that of the run's triangles. Expects the box of one of these.
+    /// Calls `visit(x, y, z, cell)` for the cells of a box that a tested run may touch, while `goesOn()`; the delta of
+    /// `cell` is at least that of the run's triangles. Expects the box of one of these.
     template <class GoesOn, class Visit>
     void forCells(const Run& run, const CellBox& box, const GoesOn& goesOn, const Visit& visit) const {
         run.cells.forEach(box, goesOn, [&](std::int32_t x, std::int32_t y, std::int32_t z, std::size_t number) {
@@ -71,7 +71,7 @@ template <class Kept> class LikelyRuns {
     }
 
   private:
-    void lookAtCells(const PointHull& hull, const CellBox& box, Run& run) {
+    void testCells(const PointHull& hull, const CellBox& box, Run& run) {
         const auto always = [] { return true; };
         cells_.forCells(box, always, [&](std::int32_t x, std::int32_t y, std::int32_t z, const BrickCells& brick) {
             const shader::CertifiedCell cell = cells_.cell(x, y, z, brick, hull.delta);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host/touch/cells/run_look.h"
+#include "host/touch/cells/point_hull.h"
 #include "core/base/infinity.h"
 
 #include <cmath>
@@ -22,8 +22,7 @@ double lerp(double a, double b, double weight) noexcept {
     return a + weight * (b - a);
 }
 
-/// The interpolant of a cell from a place in it: its linear part, and how much the rest of it is at most in a box
-/// around that place.
+/// The interpolant of a cell around a point: its linear part, and the maximum of the rest in a box around that point.
 struct Linear {
     double value = 0;
     double x = 0;
@@ -59,7 +58,7 @@ Linear linearIn(const shader::CertifiedCell& cell, const Range& x, const Range& 
     return out;
 }
 
-/// Of a hull's box, the part in a cell, from the cell's corner.
+/// Part of a hull's box in a cell, relative to the cell's corner.
 struct Part {
     VoxelPoint lo{};
     VoxelPoint hi{};
@@ -77,7 +76,7 @@ Part partOf(const PointHull& hull, const VoxelPoint& origin, const shader::Certi
 
 /// The least and the greatest dot product of a point with (x, y, z).
 Range along(const PointHull& hull, double x, double y, double z) noexcept {
-    // Several chains of comparisons, each of which waits for itself alone. None takes what is not a number.
+    // Several chains of comparisons, without dependencies between them. All skip NaN.
     constexpr std::size_t kChains = 4;
     std::array<Range, kChains> ranges;
     ranges.fill({kInfinity, -kInfinity});
@@ -103,8 +102,8 @@ Range along(const PointHull& hull, double x, double y, double z) noexcept {
     return whole;
 }
 
-/// Of a cell's pointError: the interpolation here is off by one, that of certifiedPartMayBeOpaque() for a triangle by
-/// another, and it asks with the third.
+/// In units of a cell's pointError: one for the interpolation here, one for certifiedPartMayBeOpaque(), one for its
+/// test.
 constexpr float kErrors = 3;
 
 VoxelPoint originOf(std::int32_t x, std::int32_t y, std::int32_t z) noexcept {
@@ -145,7 +144,7 @@ void RunPoints::add(const shader::CertifiedVertex& vertex, std::uint32_t triangl
     ++count_;
     lo_ = isFirst ? at : VoxelPoint{std::min(lo_.x, at.x), std::min(lo_.y, at.y), std::min(lo_.z, at.z)};
     hi_ = isFirst ? at : VoxelPoint{std::max(hi_.x, at.x), std::max(hi_.y, at.y), std::max(hi_.z, at.z)};
-    // What is not a finite number stays.
+    // A number that is not finite stays.
     const bool isFarther = error_ <= CERTIFIED_FARTHEST && !(vertex.error <= error_);
     error_ = isFirst || isFarther ? vertex.error : error_;
 }

@@ -18,7 +18,7 @@ struct PieceAlong {
     PieceAlong(const PieceBounds& piece, const VolumeSpace& space, const Direction& chosen)
         : direction(chosen), least(piece.least(space, chosen.normal())) {}
 
-    /// How far some of a mesh that reaches so far is apart from it, at least, but for roundings.
+    /// Returns a lower bound, up to rounding, of its distance from a part of the mesh with this reach.
     [[nodiscard]] double from(double reach) const {
         return direction.length() > 0 ? (least - reach) / direction.length() : 0;
     }
@@ -28,17 +28,17 @@ struct PieceAlong {
     double least = 0;
 };
 
-/// One triangle's look at one piece, from which a search learns a direction and, with luck, a nearer point.
-class PieceLook {
+/// Distance of one triangle from one piece, which gives the search a direction and possibly a nearer point.
+class PieceDistance {
   public:
     /// `worthwhile`: mm; what brings less is not followed. `triangle` is the mesh's. All must live as long as it.
-    PieceLook(const OpaquePart& part, const SearchedPart& searched, const PartCell& cell, const CellPiece& piece,
-              const MeshPlace& mesh, const PlacedTriangle& triangle, double worthwhile)
+    PieceDistance(const OpaquePart& part, const SearchedPart& searched, const PartCell& cell, const CellPiece& piece,
+                  const MeshPlace& mesh, const PlacedTriangle& triangle, double worthwhile)
         : part_(part), searched_(searched), cell_(cell), piece_(piece), mesh_(mesh), triangle_(triangle),
           worthwhile_(worthwhile) {}
 
-    /// From the triangle to about the closest opaque point. `found` is offered points that certainly are opaque, as
-    /// those of triangle `number`.
+    /// Returns the direction from the triangle to about the closest opaque point. Offers certainly opaque points to
+    /// `found`, for triangle `number`.
     [[nodiscard]] glm::dvec3 run(const PiecePlace& place, const DistanceError& error, std::uint32_t number,
                                  Found& found) const;
 

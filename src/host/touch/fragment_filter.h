@@ -9,9 +9,9 @@
 
 namespace voxtact::cpu {
 
-/// Many fragments at a time, as far as few comparisons decide them: first by the range that the interpolant has in the
-/// box of the triangle's part in the cell, then by the corners of that part. One thread's.
-class FragmentLook {
+/// Decides many fragments at a time with few comparisons: first by the range of the interpolant in the box of the
+/// triangle's part in the cell, then by the corners of that part. Not thread-safe.
+class FragmentFilter {
   public:
     static constexpr std::size_t kMost = 128;
     static constexpr std::size_t kMostLanes = 16;
@@ -29,10 +29,11 @@ class FragmentLook {
     [[nodiscard]] bool full() const noexcept { return count_ == kMost; }
     /// The next fragment; expects room.
     void add(const Fragment& fragment) noexcept;
-    /// Looks at those that were added since the last look, and begins again.
-    void look(const shader::CertifiedItem& item, const shader::OpacityBounds& bounds) noexcept;
+    /// Tests the fragments added since the last call, and empties the list.
+    void test(const shader::CertifiedItem& item, const shader::OpacityBounds& bounds) noexcept;
 
-    /// Of those that the last look was at: certifiedBegin() leaves nothing, or certifiedSettle() finds nothing opaque.
+    /// For the last tested fragments: true if certifiedBegin() leaves nothing, or certifiedSettle() finds nothing
+    /// opaque.
     [[nodiscard]] bool isNone(std::size_t i) const noexcept { return lanes_.none[i] != 0; }
     /// certifiedSettle() finds it certain.
     [[nodiscard]] bool isCertain(std::size_t i) const noexcept { return lanes_.certain[i] != 0; }
@@ -47,12 +48,12 @@ class FragmentLook {
         std::array<Each<float>, 8> stored{}; ///< at corner x + 2 y + 4 z
         Each<float> wideLo{};
         Each<float> wideHi{};
-        // Not 0: it is true.
+        // not 0: true
         Each<std::uint32_t> passes{};
         Each<std::uint32_t> none{};
         Each<std::uint32_t> certain{};
     };
-    /// Some of them, by number.
+    /// Some fragments, by index.
     struct Chosen {
         std::array<std::int32_t, kMost> number{};
         std::size_t count = 0;
@@ -63,8 +64,8 @@ class FragmentLook {
     std::size_t count_ = 0;
 };
 
-/// The second half of a look: at those that are chosen, by their corners.
+/// Second half of a test: by the corners of the chosen fragments.
 void cutFragments(const shader::CertifiedItem& item, const shader::OpacityBounds& bounds,
-                  const FragmentLook::Chosen& chosen, FragmentLook::Lanes& lanes) noexcept;
+                  const FragmentFilter::Chosen& chosen, FragmentFilter::Lanes& lanes) noexcept;
 
 } // namespace voxtact::cpu

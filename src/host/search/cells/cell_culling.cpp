@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "host/search/cells/cell_sieve.h"
+#include "host/search/cells/cell_culling.h"
 #include "core/base/infinity.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "host/search/cells/cell_sieve.cpp"
+#define HWY_TARGET_INCLUDE "host/search/cells/cell_culling.cpp"
 #include <hwy/foreach_target.h>
 
 #include "host/search/cells/simd_space.h"
@@ -33,7 +33,7 @@ struct RowPart {
     double* lo = nullptr;
 };
 
-HWY_INLINE unsigned sieveRow(const CellSieveJob& job, const RowPart& row, DoubleV& gone) {
+HWY_INLINE unsigned cullRow(const CellCullingJob& job, const RowPart& row, DoubleV& gone) {
     const Doubles d;
     const std::size_t lanes = hn::Lanes(d);
     unsigned kept = 0;
@@ -53,20 +53,20 @@ HWY_INLINE unsigned sieveRow(const CellSieveJob& job, const RowPart& row, Double
     return kept;
 }
 
-void sieveCells(const CellSieveJob& job, SievedCells& out) {
+void cullCells(const CellCullingJob& job, RemainingCells& out) {
     DoubleV gone = all(kInfinity);
     for (std::int32_t z = job.cells.lo[2]; z <= job.cells.hi[2]; ++z) {
         for (std::int32_t y = job.cells.lo[1]; y <= job.cells.hi[1]; ++y) {
             const auto number = static_cast<std::size_t>(y + kBrickSide * z);
             const RowPart row{job.known.row(job.cells, y, z), job.base + job.along.y * y + job.along.z * z,
                               out.lo.data() + number * kSide};
-            out.kept[number] = static_cast<std::uint8_t>(row.bits != 0 ? sieveRow(job, row, gone) : 0);
+            out.kept[number] = static_cast<std::uint8_t>(row.bits != 0 ? cullRow(job, row, gone) : 0);
         }
     }
     out.leastGone = leastOf(gone);
 }
 
-void sieveNear(const NearCellsJob& job, SievedCells& out) {
+void cullNear(const NearCellsJob& job, RemainingCells& out) {
     const Doubles d;
     const std::size_t lanes = hn::Lanes(d);
     for (std::int32_t z = job.cells.lo[2]; z <= job.cells.hi[2]; ++z) {
@@ -125,16 +125,16 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace voxtact::cpu {
 
-HWY_EXPORT(sieveCells);
-HWY_EXPORT(sieveNear);
+HWY_EXPORT(cullCells);
+HWY_EXPORT(cullNear);
 HWY_EXPORT(leastCell);
 
-void sieveCells(const CellSieveJob& job, SievedCells& out) {
-    HWY_DYNAMIC_DISPATCH(sieveCells)(job, out);
+void cullCells(const CellCullingJob& job, RemainingCells& out) {
+    HWY_DYNAMIC_DISPATCH(cullCells)(job, out);
 }
 
-void sieveNear(const NearCellsJob& job, SievedCells& out) {
-    HWY_DYNAMIC_DISPATCH(sieveNear)(job, out);
+void cullNear(const NearCellsJob& job, RemainingCells& out) {
+    HWY_DYNAMIC_DISPATCH(cullNear)(job, out);
 }
 
 double leastCell(const BrickCells& known, const CellBox& cells, const glm::dvec3& along) {

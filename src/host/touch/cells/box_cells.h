@@ -14,16 +14,16 @@ namespace voxtact::cpu {
 
 /// The cells that the triangles in boxes of object space may pass through: those of certifiedBoxBounds(), and some
 /// more, where what a box of a mesh has in common with all others is done once.
-class BoxLook {
+class BoxCells {
   public:
     /// `pair` must outlive it.
-    BoxLook(const shader::CertifiedItem& item, const shader::CertifiedPair& pair, const ClusterTree& tree) noexcept;
+    BoxCells(const shader::CertifiedItem& item, const shader::CertifiedPair& pair, const ClusterTree& tree) noexcept;
 
-    /// False: nothing is said of any box.
+    /// False: no box can be tested.
     [[nodiscard]] bool usable() const noexcept { return usable_; }
     /// Voxels: no triangle of the mesh has a larger one.
     [[nodiscard]] float delta() const noexcept { return delta_; }
-    /// Of one of the tree's boxes. Expects that it is usable.
+    /// Returns the cells of one of the tree's boxes. Expects usable().
     [[nodiscard]] CellBox cells(const RunBox& box) const noexcept {
         float from[3];
         float radius[3];
@@ -44,7 +44,7 @@ class BoxLook {
     }
 
   private:
-    /// As certifiedCells() has it.
+    /// Same as certifiedCells().
     void setCells(float from, float to, std::size_t axis, CellBox& out) const noexcept {
         const float last = last_[axis];
         if (to < -0.5F || from > last + 0.5F) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "host/search/cells/piece_look.h"
+#include "host/search/cells/piece_distance.h"
 #include "core/base/infinity.h"
 #include "host/search/nearest_point.h"
 
@@ -46,8 +46,8 @@ struct Bracket {
     std::array<PlacedValue, 2> ends;
 
     [[nodiscard]] bool certain() const { return crosses(ends[0], ends[1]); }
-    /// To half of the way; false where none is certain. Around the middle where its value is too near to an interval's
-    /// end to tell on which side the opaque point is.
+    /// Moves to half of the distance; false if no point is certain. Stays near the middle if its value is too close to
+    /// an interval's end to tell on which side the opaque point is.
     bool halve() {
         const PlacedValue middle = at(0.5);
         for (const std::array<PlacedValue, 2>& half :
@@ -83,7 +83,8 @@ CellPiece pieceAt(const PartCell& cell, const PiecePlace& place) noexcept {
 }
 
 /// Goes from the triangle to the opaque part and back, each time to about the closest point.
-dvec3 PieceLook::run(const PiecePlace& place, const DistanceError& error, std::uint32_t number, Found& found) const {
+dvec3 PieceDistance::run(const PiecePlace& place, const DistanceError& error, std::uint32_t number,
+                         Found& found) const {
     constexpr int kMostTurns = 4;
     const VolumeSpace& space = part_.space;
     dvec3 onMesh = mesh_.near(triangle_, space.toWorld(piece_.middle()));
@@ -121,7 +122,7 @@ dvec3 PieceLook::run(const PiecePlace& place, const DistanceError& error, std::u
 
 /// An opaque point on the way from one corner of a piece to another: no point of that way is farther from the triangle
 /// than its farther end.
-void PieceLook::between(const DistanceError& error, std::uint32_t number, Found& found) const {
+void PieceDistance::between(const DistanceError& error, std::uint32_t number, Found& found) const {
     constexpr int kMostHalvings = 24;
     if (!part_.intervals.certainlyMeet(piece_.lo() + 2 * cell_.error, piece_.hi() - 2 * cell_.error)) {
         return;
@@ -140,7 +141,7 @@ void PieceLook::between(const DistanceError& error, std::uint32_t number, Found&
         const dvec3 at = part_.space.toWorld(cell_.middle + 0.5 * end.at);
         const dvec3 near = mesh_.near(triangle_, at);
         const bool isIt = part_.intervals.contain(end.value - cell_.error, end.value + cell_.error);
-        // An opaque end, else the farther one: there is an opaque point no farther than that.
+        // An opaque end, else the farther one: an opaque point is at most that far away.
         if (const double distance = glm::distance(at, near); isIt || (!opaque && distance > farthest)) {
             farthest = distance;
             point = at;

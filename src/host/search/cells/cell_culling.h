@@ -12,40 +12,40 @@
 
 namespace voxtact::cpu {
 
-/// Those cells of a brick that may be opaque and are in a box, numbered within it.
-struct CellSieveJob {
+/// Cells of a brick in a box that may be opaque, numbered in the box.
+struct CellCullingJob {
     const BrickCells& known;
     const CellBox& cells;
     glm::dvec3 along{}; ///< from one cell to the next one, what a normal's product with their points changes by
     double base = 0;    ///< of the first cell of the brick, less how far along the normal something reaches
     double inverse = 0; ///< Direction::inverse() of the normal
     double least = 0;   ///< mm: none is nearer
-    double cut = 0;     ///< mm: what is not nearer is not kept
+    double cut = 0;     ///< mm: pruned from this distance on
     double error = 0;   ///< DistanceError::absolute
 };
 
-/// What is left of them.
-struct alignas(kRowAlignment) SievedCells {
+/// Cells that remain after pruning.
+struct alignas(kRowAlignment) RemainingCells {
     static constexpr std::size_t kRows = kBrickSide * kBrickSide;
-    std::array<double, kRows * kBrickSide> lo{}; ///< mm, of those that are kept, row by row
+    std::array<double, kRows * kBrickSide> lo{}; ///< mm, lower bounds of the remaining cells, row by row
     std::array<std::uint8_t, kRows> kept{};      ///< of the rows that are in the box, a bit for each
     double leastGone = 0;                        ///< mm: none of the others is nearer
 };
 
-/// The same on every processor, as what follows.
-void sieveCells(const CellSieveJob& job, SievedCells& out);
+/// Gives the same result on every processor, like the functions below.
+void cullCells(const CellCullingJob& job, RemainingCells& out);
 
-/// Those cells of a brick that may be opaque and are in a box, by how far they are along each axis from a point.
+/// Cells of a brick in a box that may be opaque, by their distance from a point along each axis.
 struct NearCellsJob {
     const BrickCells& known;
     const CellBox& cells;
     const std::array<std::array<double, kBrickSide>, 3>& squares; ///< mm^2
-    double within = 0;                                            ///< mm^2: what is not nearer is not kept
+    double within = 0;                                            ///< mm^2: pruned from this distance on
 };
 
 /// `lo` is in mm^2 here, and there is no `leastGone`.
-void sieveNear(const NearCellsJob& job, SievedCells& out);
-/// The least dot product of `along` with the place of one of them within the brick.
+void cullNear(const NearCellsJob& job, RemainingCells& out);
+/// Returns the minimum dot product of `along` with the position of a cell in the brick.
 [[nodiscard]] double leastCell(const BrickCells& known, const CellBox& cells, const glm::dvec3& along);
 
 } // namespace voxtact::cpu

@@ -25,18 +25,18 @@ struct LeastAlong {
 };
 
 /// Some triangles of a cluster that is not swept.
-struct SieveJob {
+struct CullingJob {
     const PlacedCluster& triangles;
     std::uint64_t among = 0; ///< a bit for each
     double lo = 0;           ///< mm: none is nearer
-    double cut = 0;          ///< mm: what is not nearer is not kept
+    double cut = 0;          ///< mm: pruned from this distance on
     double error = 0;        ///< DistanceError::absolute
 };
 
-/// What is left of them.
-struct Sieved {
+/// Triangles that remain after pruning.
+struct RemainingTriangles {
     std::uint64_t kept = 0;
-    std::uint8_t nearest = 0;     ///< of those that are kept
+    std::uint8_t nearest = 0;     ///< of the remaining triangles
     double least = kInfinity;     ///< mm: none of these is nearer
     double leastGone = kInfinity; ///< mm: none of the others is
 };
@@ -47,15 +47,16 @@ struct VoxelBox3 {
     glm::dvec3 hi{};
 };
 
-/// Each triangle by its distance along some directions. The same on every processor, as all that follows.
-[[nodiscard]] Sieved sieveAlong(const SieveJob& job, std::span<const LeastAlong> directions);
-/// Each by its box, and along a direction of its own to the middle of the other box.
-[[nodiscard]] Sieved sieveByBox(const SieveJob& job, const VolumeSpace& space, const VoxelBox3& box);
-/// Each along a direction, and then along one of its own to the middle of a piece.
-[[nodiscard]] Sieved sieveByPiece(const SieveJob& job, const VolumeSpace& space, const PieceBounds& piece,
-                                  const LeastAlong& direction);
+/// Prunes each triangle by its distance along some directions. Gives the same result on every processor, like the
+/// functions below.
+[[nodiscard]] RemainingTriangles cullAlong(const CullingJob& job, std::span<const LeastAlong> directions);
+/// Prunes each triangle by its box, and along its direction to the middle of the other box.
+[[nodiscard]] RemainingTriangles cullByBox(const CullingJob& job, const VolumeSpace& space, const VoxelBox3& box);
+/// Prunes each triangle along a direction, and then along its direction to the middle of a piece.
+[[nodiscard]] RemainingTriangles cullByPiece(const CullingJob& job, const VolumeSpace& space, const PieceBounds& piece,
+                                             const LeastAlong& direction);
 
-/// What a cluster is placed by: rows of at least kMeshAlignment, as MeshImpl pads them.
+/// Inputs of the transformation of a cluster: rows aligned to kMeshAlignment, padded as in MeshImpl.
 struct PlaceJob {
     const glm::dmat3& local_from_object;
     const glm::dvec3& origin;
@@ -66,7 +67,7 @@ struct PlaceJob {
     std::size_t triangleCount = 0;
 };
 
-/// `local`: rows of so many vertices, in the space of the volume.
+/// Transforms vertices. `local`: rows of vertices, in the space of the volume.
 void placeVertices(const PlaceJob& job, const std::array<double*, 3>& local);
 /// `triangles`: the corners and boxes. After placeVertices().
 void placeTriangles(const PlaceJob& job, const std::array<const double*, 3>& local, PlacedCluster& triangles);

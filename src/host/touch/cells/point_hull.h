@@ -29,7 +29,7 @@ class RunPoints {
   public:
     static constexpr std::size_t kMost = 3 * std::size_t{kRunTriangles};
 
-    /// Expects room. `triangle`: the number of one that has it.
+    /// Expects room. `triangle`: the index of one triangle with this vertex.
     void add(const shader::CertifiedVertex& vertex, std::uint32_t triangle) noexcept;
     [[nodiscard]] std::size_t count() const noexcept { return count_; }
     [[nodiscard]] std::uint32_t triangle(std::size_t i) const noexcept { return triangles_[i]; }
@@ -83,13 +83,13 @@ class TriangleHull {
     float delta_;
 };
 
-/// One look at a cell for all triangles in a hull, each of which may be far smaller than the cell: false where none of
-/// their fragments there has an opaque point, as certifiedSettle() says of each of them as well. `cell` is that of the
-/// hull's delta, in place (x, y, z).
+/// Tests a cell once for all triangles in a hull, each of which may be far smaller than the cell: false if none of
+/// their fragments there has an opaque point, as certifiedSettle() would find for each of them. `cell` is that of the
+/// hull's delta, at (x, y, z).
 [[nodiscard]] bool hullMayMeet(const shader::OpaqueValues& opaque, const PointHull& hull,
                                const shader::CertifiedCell& cell, std::int32_t x, std::int32_t y,
                                std::int32_t z) noexcept;
-/// Half of that look: by the interpolant's linear part, where certifiedPartMayBeOpaque() has been asked already.
+/// Second half of that test: by the interpolant's linear part, after certifiedPartMayBeOpaque().
 [[nodiscard]] bool hullMayMeetLinearly(const shader::OpaqueValues& opaque, const PointHull& hull,
                                        const shader::CertifiedCell& cell, std::int32_t x, std::int32_t y,
                                        std::int32_t z) noexcept;
@@ -99,7 +99,7 @@ class CellSet {
   public:
     static constexpr std::int32_t kMost = 64;
 
-    /// Whether a box is small enough.
+    /// Returns true if a box is small enough.
     [[nodiscard]] bool begin(const CellBox& box) noexcept {
         box_ = box;
         bits_ = 0;

@@ -15,7 +15,7 @@ namespace voxtact::cpu {
 
 namespace {
 
-/// What a clearance belongs to.
+/// The scene of a tracked distance.
 struct TrackedScene {
     std::uint64_t mesh = 0;
     std::uint64_t volume = 0;
@@ -25,8 +25,8 @@ struct TrackedScene {
     [[nodiscard]] bool operator==(const TrackedScene&) const = default;
 };
 
-/// mm: no point of a box of object space is farther from one pose's place for it to another's. The difference of two
-/// affine maps is one, and the length of what it gives is greatest at a corner.
+/// Upper bound, mm, of the displacement of a point of a box of object space between two poses. The difference of two
+/// affine maps is affine, and its length is largest at a corner.
 double movedBy(const Mat4& from, const Mat4& to, const Box& box) {
     constexpr double kRounding = 1e-14;
     double most = 0;
@@ -64,7 +64,7 @@ struct DistanceTrackerImpl {
     TrackedDistance track(const BatchItem& item, double threshold);
 
   private:
-    [[nodiscard]] TrackedDistance look(const BatchItem& item, double threshold, double ahead);
+    [[nodiscard]] TrackedDistance search(const BatchItem& item, double threshold, double ahead);
 
     TrackerDesc desc;
     ThreadMemory memory;
@@ -90,15 +90,15 @@ TrackedDistance DistanceTrackerImpl::track(const BatchItem& item, double thresho
         out.bounds = {known.lower - moved, known.upper + moved};
         return out;
     }
-    scene = {}; // a look that fails leaves nothing that is known
-    const TrackedDistance out = look(item, threshold, kAhead * step);
+    scene = {}; // a failed search leaves no known distance
+    const TrackedDistance out = search(item, threshold, kAhead * step);
     scene = now;
     lookedAt = pose;
     known = out.bounds;
     return out;
 }
 
-TrackedDistance DistanceTrackerImpl::look(const BatchItem& item, double threshold, double ahead) {
+TrackedDistance DistanceTrackerImpl::search(const BatchItem& item, double threshold, double ahead) {
     constexpr double kLeastAhead = 0.25; // mm
     constexpr double kRelative = 0.25;
     TrackedDistance out;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A look at many fragments together, against what is decided of each by itself.
-#include "host/touch/fragment_look.h"
+#include "host/touch/fragment_filter.h"
 
 #include "cpu/scenes/look_scene.h"
 #include "cpu/scenes/random_scene.h"
@@ -20,13 +20,13 @@
 namespace voxtact::test {
 namespace {
 
-using cpu::FragmentLook;
+using cpu::FragmentFilter;
 using shader::CertifiedVertex;
 
 /// A fragment, and the vertices of its triangle.
 struct DrawnFragment {
     std::array<CertifiedVertex, 3> vertices{};
-    FragmentLook::Fragment look;
+    FragmentFilter::Fragment look;
 };
 
 /// A cell, more often than not on a face of the domain where `atFace` is set.
@@ -86,18 +86,18 @@ DrawnFragment drawnFragment(std::mt19937_64& random, const LookScene& scene) {
 }
 
 std::vector<DrawnFragment> drawnFragments(std::mt19937_64& random, const LookScene& scene) {
-    std::vector<DrawnFragment> all(1 + below(random, FragmentLook::kMost));
+    std::vector<DrawnFragment> all(1 + below(random, FragmentFilter::kMost));
     std::ranges::generate(all, [&] { return drawnFragment(random, scene); });
     return all;
 }
 
-void look(const LookScene& scene, const std::vector<DrawnFragment>& fragments, FragmentLook& out) {
+void look(const LookScene& scene, const std::vector<DrawnFragment>& fragments, FragmentFilter& out) {
     for (const DrawnFragment& fragment : fragments) {
         out.add(fragment.look);
     }
     EXPECT_EQ(out.count(), fragments.size());
-    EXPECT_EQ(out.full(), fragments.size() == FragmentLook::kMost);
-    out.look(scene.item(), scene.opaque().bounds);
+    EXPECT_EQ(out.full(), fragments.size() == FragmentFilter::kMost);
+    out.test(scene.item(), scene.opaque().bounds);
     EXPECT_EQ(out.count(), 0U);
 }
 
@@ -116,9 +116,9 @@ void expectVerdict(const LookScene& scene, const DrawnFragment& fragment, bool i
     tally.decided[static_cast<std::size_t>(verdict)] += isNone || isCertain ? 1 : 0;
 }
 
-TEST(FragmentLookTest, SaysWhatIsFoundOfEachAlone) {
+TEST(FragmentFilterTest, SaysWhatIsFoundOfEachAlone) {
     std::mt19937_64 random(testSeed());
-    FragmentLook looked;
+    FragmentFilter looked;
     LookTally tally;
     for (std::size_t round = 0; round < randomCases(20000, 10) && !HasFailure(); ++round) {
         const LookScene scene(random);
@@ -141,10 +141,10 @@ TEST(FragmentLookTest, SaysWhatIsFoundOfEachAlone) {
     EXPECT_GT(certain, 0.5);
 }
 
-TEST(FragmentLookTest, IsTheSameByEveryInstructionSet) {
+TEST(FragmentFilterTest, IsTheSameByEveryInstructionSet) {
     std::mt19937_64 random(testSeed());
     const auto saidOf = [](const LookScene& scene, const std::vector<DrawnFragment>& fragments) {
-        FragmentLook looked;
+        FragmentFilter looked;
         look(scene, fragments, looked);
         std::vector<int> said;
         for (std::size_t i = 0; i < fragments.size(); ++i) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "host/search/cells/cluster_sieve.h"
+#include "host/search/cells/cluster_culling.h"
 #include "core/geometry/clusters.h"
 
 #include <bit>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "host/search/cells/cluster_sieve.cpp"
+#define HWY_TARGET_INCLUDE "host/search/cells/cluster_culling.cpp"
 #include <hwy/foreach_target.h>
 
 #include "host/search/cells/simd_piece.h"
@@ -37,13 +37,13 @@ HWY_INLINE PointV offTriangles(const PlacedCluster& triangles, std::size_t first
     return offTriangle(triangle, inverse, point);
 }
 
-/// `bound(first, open)` has the bounds of the triangles from `first` on, as far as they are `open`.
-template <class Bound> HWY_INLINE Sieved sieve(const SieveJob& job, const Bound& bound) {
+/// `bound(first, open)` returns bounds of the triangles from `first` on whose bits in `open` are set.
+template <class Bound> HWY_INLINE RemainingTriangles cull(const CullingJob& job, const Bound& bound) {
     const Doubles d;
     const std::size_t lanes = hn::Lanes(d);
     const std::uint64_t group = (std::uint64_t{1} << lanes) - 1;
     const DoubleV cut = all(job.cut);
-    Sieved out;
+    RemainingTriangles out;
     DoubleV gone = all(out.leastGone);
     alignas(kRowAlignment) std::array<double, kMostDoubles> bounds;
     for (std::size_t first = 0; first < kClusterTriangles; first += lanes) {
@@ -73,7 +73,8 @@ template <class Bound> HWY_INLINE Sieved sieve(const SieveJob& job, const Bound&
     return out;
 }
 
-HWY_INLINE DoubleV boundAlong(const SieveJob& job, const TriangleV& triangle, std::span<const LeastAlong> directions) {
+HWY_INLINE DoubleV boundAlong(const CullingJob& job, const TriangleV& triangle,
+                              std::span<const LeastAlong> directions) {
     DoubleV lo = hn::Zero(Doubles());
     for (const LeastAlong& one : directions) {
         const PointV normal = all(one.normal);
@@ -86,25 +87,25 @@ HWY_INLINE DoubleV boundAlong(const SieveJob& job, const TriangleV& triangle, st
 /// `better()` where a bound does not close already: what becomes of a triangle must not depend on its neighbours in a
 /// vector.
 template <class Better>
-HWY_INLINE DoubleV unlessClosed(const SieveJob& job, DoubleV lo, DoubleM open, const Better& better) {
+HWY_INLINE DoubleV unlessClosed(const CullingJob& job, DoubleV lo, DoubleM open, const Better& better) {
     const DoubleM left = hn::And(open, hn::Lt(lo, all(job.cut)));
     return hn::AllFalse(Doubles(), left) ? lo : hn::IfThenElse(left, greater(better(), lo), lo);
 }
 
-Sieved sieveAlong(const SieveJob& job, std::span<const LeastAlong> directions) {
-    return sieve(job, [&](std::size_t first, DoubleM /*open*/) {
+RemainingTriangles cullAlong(const CullingJob& job, std::span<const LeastAlong> directions) {
+    return cull(job, [&](std::size_t first, DoubleM /*open*/) {
         return boundAlong(job, trianglesAt(job.triangles, first), directions);
     });
 }
 
-Sieved sieveByBox(const SieveJob& job, const VolumeSpace& space, const VoxelBox3& box) {
+RemainingTriangles cullByBox(const CullingJob& job, const VolumeSpace& space, const VoxelBox3& box) {
     const PointV lowest = all(box.lo);
     const PointV highest = all(box.hi);
     const PointV twiceMiddle = all(box.lo + box.hi);
     const PointV sides = all(box.hi - box.lo);
     const PointV middle = all(space.toWorld(0.5 * (box.lo + box.hi)));
     const PointV spacing = all(space.spacing);
-    return sieve(job, [&](std::size_t first, DoubleM open) {
+    return cull(job, [&](std::size_t first, DoubleM open) {
         const PointV zero = all(glm::dvec3(0));
         const PointV off = spacing * greater(greater(lowest - pointsAt(job.triangles.hi, first),
                                                      pointsAt(job.triangles.lo, first) - highest),
@@ -120,10 +121,10 @@ Sieved sieveByBox(const SieveJob& job, const VolumeSpace& space, const VoxelBox3
     });
 }
 
-Sieved sieveByPiece(const SieveJob& job, const VolumeSpace& space, const PieceBounds& piece,
-                    const LeastAlong& direction) {
+RemainingTriangles cullByPiece(const CullingJob& job, const VolumeSpace& space, const PieceBounds& piece,
+                               const LeastAlong& direction) {
     const PieceV pieces = all(piece);
-    return sieve(job, [&](std::size_t first, DoubleM open) {
+    return cull(job, [&](std::size_t first, DoubleM open) {
         const TriangleV triangle = trianglesAt(job.triangles, first);
         const DoubleV lo = boundAlong(job, triangle, {&direction, 1});
         return unlessClosed(job, lo, open, [&] {
@@ -189,23 +190,23 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace voxtact::cpu {
 
-HWY_EXPORT(sieveAlong);
-HWY_EXPORT(sieveByBox);
-HWY_EXPORT(sieveByPiece);
+HWY_EXPORT(cullAlong);
+HWY_EXPORT(cullByBox);
+HWY_EXPORT(cullByPiece);
 HWY_EXPORT(placeVertices);
 HWY_EXPORT(placeTriangles);
 
-Sieved sieveAlong(const SieveJob& job, std::span<const LeastAlong> directions) {
-    return HWY_DYNAMIC_DISPATCH(sieveAlong)(job, directions);
+RemainingTriangles cullAlong(const CullingJob& job, std::span<const LeastAlong> directions) {
+    return HWY_DYNAMIC_DISPATCH(cullAlong)(job, directions);
 }
 
-Sieved sieveByBox(const SieveJob& job, const VolumeSpace& space, const VoxelBox3& box) {
-    return HWY_DYNAMIC_DISPATCH(sieveByBox)(job, space, box);
+RemainingTriangles cullByBox(const CullingJob& job, const VolumeSpace& space, const VoxelBox3& box) {
+    return HWY_DYNAMIC_DISPATCH(cullByBox)(job, space, box);
 }
 
-Sieved sieveByPiece(const SieveJob& job, const VolumeSpace& space, const PieceBounds& piece,
-                    const LeastAlong& direction) {
-    return HWY_DYNAMIC_DISPATCH(sieveByPiece)(job, space, piece, direction);
+RemainingTriangles cullByPiece(const CullingJob& job, const VolumeSpace& space, const PieceBounds& piece,
+                               const LeastAlong& direction) {
+    return HWY_DYNAMIC_DISPATCH(cullByPiece)(job, space, piece, direction);
 }
 
 void placeVertices(const PlaceJob& job, const std::array<double*, 3>& local) {

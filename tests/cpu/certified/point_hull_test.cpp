@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // A look at a run of triangles and a cell, against what is decided of each triangle by itself; the boxes before it and
 // the set of cells after it.
-#include "host/touch/cells/run_look.h"
+#include "host/touch/cells/point_hull.h"
 
 #include "core/method/certified_constants.h"
 #include "cpu/scenes/engine_fixture.h"
 #include "cpu/scenes/look_scene.h"
 #include "cpu/scenes/random_scene.h"
-#include "host/touch/cells/box_look.h"
+#include "host/touch/cells/box_cells.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -48,7 +48,7 @@ std::vector<std::array<CertifiedVertex, 3>> drawnRun(std::mt19937_64& random) {
     return run;
 }
 
-TEST(RunLookTest, LeavesOutOnlyWhatIsNoneForEachTriangle) {
+TEST(PointHullTest, LeavesOutOnlyWhatIsNoneForEachTriangle) {
     std::mt19937_64 random(testSeed());
     std::size_t without = 0;   // an opaque point, by each triangle
     std::size_t leftOut = 0;   // of these
@@ -93,7 +93,7 @@ TEST(RunLookTest, LeavesOutOnlyWhatIsNoneForEachTriangle) {
 }
 
 /// A value that is not a number is nothing that a look may pass over.
-TEST(RunLookTest, LeavesWhatIsNotANumber) {
+TEST(PointHullTest, LeavesWhatIsNotANumber) {
     std::mt19937_64 random(testSeed());
     for (int round = 0; round < 1000; ++round) {
         const LookScene scene(random);
@@ -107,7 +107,7 @@ TEST(RunLookTest, LeavesWhatIsNotANumber) {
     }
 }
 
-TEST(RunLookTest, ARunsBoundsHoldThoseOfItsTriangles) {
+TEST(PointHullTest, ARunsBoundsHoldThoseOfItsTriangles) {
     std::mt19937_64 random(testSeed());
     const LookScene scene(random);
     for (int round = 0; round < 10000; ++round) {
@@ -132,7 +132,7 @@ TEST(RunLookTest, ARunsBoundsHoldThoseOfItsTriangles) {
     EXPECT_FALSE(lost.bounds(scene.item()).usable);
 }
 
-TEST(BoxLookTest, HasTheCellsThatABoxByItselfHas) {
+TEST(BoxCellsTest, HasTheCellsThatABoxByItselfHas) {
     std::mt19937_64 random(testSeed());
     std::size_t usable = 0;
     for (int round = 0; round < 2000; ++round) {
@@ -149,7 +149,7 @@ TEST(BoxLookTest, HasTheCellsThatABoxByItselfHas) {
         const shader::CertifiedItem item = certifiedItem(grid, OpaqueNumbers{}, 1e-3);
         const shader::CertifiedPair pair =
             certifiedPair(pairGrid(grid, take(textureFromWorld(grid))), randomMotion(random));
-        const cpu::BoxLook look(item, pair, tree);
+        const cpu::BoxCells look(item, pair, tree);
         if (!look.usable()) {
             continue;
         }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "host/touch/fragment_look.h"
+#include "host/touch/fragment_filter.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "host/touch/fragment_look.cpp"
+#define HWY_TARGET_INCLUDE "host/touch/fragment_filter.cpp"
 #include <hwy/foreach_target.h>
 
 #include "host/touch/simd_fragments.h"
@@ -18,8 +18,8 @@ struct PartBoxes {
     FragmentMask whole;
 };
 
-/// As certifiedPart() has an axis.
-HWY_INLINE void setAlong(const FragmentLook::Lanes& lanes, std::size_t i, std::size_t axis, std::int32_t size,
+/// Same as certifiedPart() along an axis.
+HWY_INLINE void setAlong(const FragmentFilter::Lanes& lanes, std::size_t i, std::size_t axis, std::int32_t size,
                          PartBoxes& parts) {
     const FragmentFloats d;
     const AlongCell cell = alongCell(hn::LoadU(FragmentWhole(), lanes.cell[axis].data() + i), size);
@@ -35,11 +35,11 @@ HWY_INLINE void setAlong(const FragmentLook::Lanes& lanes, std::size_t i, std::s
     parts.whole = hn::And(parts.whole, cell.whole);
 }
 
-/// Of a point's error: the range here is off by one, a polygon's corner by another, and the third is for rounding.
+/// In units of a point's error: one for the range here, one for a polygon's corner, one for rounding.
 constexpr float kErrors = 3;
 
 HWY_INLINE void lookAtSome(const shader::CertifiedItem& item, const shader::OpacityBounds& bounds,
-                           FragmentLook::Lanes& lanes, std::size_t i) {
+                           FragmentFilter::Lanes& lanes, std::size_t i) {
     const FragmentFloats d;
     const FragmentWords words;
     PartBoxes parts;
@@ -63,8 +63,8 @@ HWY_INLINE void lookAtSome(const shader::CertifiedItem& item, const shader::Opac
     hn::StoreU(hn::IfThenElseZero(certain, passes), words, lanes.certain.data() + i);
 }
 
-void lookAtFragments(const shader::CertifiedItem& item, const shader::OpacityBounds& bounds, FragmentLook::Lanes& lanes,
-                     std::size_t count) {
+void lookAtFragments(const shader::CertifiedItem& item, const shader::OpacityBounds& bounds,
+                     FragmentFilter::Lanes& lanes, std::size_t count) {
     for (std::size_t i = 0; i < count; i += hn::Lanes(FragmentFloats())) {
         lookAtSome(item, bounds, lanes, i);
     }
@@ -80,7 +80,7 @@ namespace voxtact::cpu {
 
 HWY_EXPORT(lookAtFragments);
 
-void FragmentLook::add(const Fragment& fragment) noexcept {
+void FragmentFilter::add(const Fragment& fragment) noexcept {
     const std::size_t i = count_++;
     for (std::size_t corner = 0; corner < 3; ++corner) {
         const shader::VoxelPoint& at = fragment.triangle[corner];
@@ -102,7 +102,7 @@ void FragmentLook::add(const Fragment& fragment) noexcept {
     lanes_.passes[i] = fragment.passes ? 1 : 0;
 }
 
-void FragmentLook::look(const shader::CertifiedItem& item, const shader::OpacityBounds& bounds) noexcept {
+void FragmentFilter::test(const shader::CertifiedItem& item, const shader::OpacityBounds& bounds) noexcept {
     HWY_DYNAMIC_DISPATCH(lookAtFragments)(item, bounds, lanes_, count_);
     Chosen open;
     for (std::size_t i = 0; i < count_; ++i) {
