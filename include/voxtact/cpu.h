@@ -226,7 +226,9 @@ class HostEngine {
     /// kMaxViewport (dominant-axis: a volume that needs one), and outputs with stopAtFirst. dominant-axis sets up each
     /// triangle separately: much slower than a view for meshes of small triangles.
     [[nodiscard]] VOXTACT_API Result<BatchAnswer> ask(const Count& question, const Batch& batch);
+    /// Bounds each pair's distance. Labels need a label map in each item.
     [[nodiscard]] VOXTACT_API Result<DistanceAnswer> ask(const Distance& question, const Batch& batch);
+    /// Bounds the area of each pair's mesh that lies in the opaque region. Labels need a label map in each item.
     [[nodiscard]] VOXTACT_API Result<AreaAnswer> ask(const Area& question, const Batch& batch);
     /// Also refuses a mesh with holes, band limits that do not ascend, and more than kMaxBandLimits of them.
     [[nodiscard]] VOXTACT_API Result<OverlapAnswer> ask(const Overlap& question, const Batch& batch);

@@ -56,10 +56,10 @@ Surface surfaceWithDoubt(const OracleScene& scene) {
 
 void expectBetween(const Bounds& says, const OracleArea& truth, double doubt) {
     EXPECT_LE(says.lower, says.upper);
-    EXPECT_LE(says.lower, truth.hi + doubt) << "not so much: " << says.lower << " to " << says.upper << ", truth " << truth.lo
-                                         << " to " << truth.hi;
-    EXPECT_GE(says.upper, truth.lo - doubt) << "more than that: " << says.lower << " to " << says.upper << ", truth " << truth.lo
-                                         << " to " << truth.hi;
+    EXPECT_LE(says.lower, truth.hi + doubt)
+        << "not so much: " << says.lower << " to " << says.upper << ", truth " << truth.lo << " to " << truth.hi;
+    EXPECT_GE(says.upper, truth.lo - doubt)
+        << "more than that: " << says.lower << " to " << says.upper << ", truth " << truth.lo << " to " << truth.hi;
 }
 
 TEST(AreaOracle, TheTruthIsBetweenTheBounds) {
