@@ -18,6 +18,7 @@ typedef struct vxt_volume_read_options {
     const char* series;    ///< SeriesInstanceUID of a DICOM folder; null: the only one
     uint32_t choose_frame; ///< 1: `frame` says which; 0: the only one
     uint32_t frame;        ///< of a 4D NIfTI file, counted from 0
+    uint32_t resample;     ///< 1: DICOM slices that make no regular grid are resampled, with a note; 0: refused
 } vxt_volume_read_options;
 
 /// What the numbers of a mesh file mean.
@@ -56,8 +57,9 @@ VXT_CHECKED vxt_result vxt_read_camera(const char* path, double clip_from_world[
 
 /// Poses that were read.
 typedef struct vxt_poses vxt_poses;
-/// One matrix a line, row by row: voxtact::io::readPoses().
-VXT_CHECKED vxt_result vxt_read_poses(const char* path, vxt_poses** poses);
+/// One pose a line: voxtact::io::readPoses(). `format`: "matrix", "t-xyzw", "t-wxyz", "xyzw-t" or "wxyz-t"; null:
+/// "matrix".
+VXT_CHECKED vxt_result vxt_read_poses(const char* path, const char* format, vxt_poses** poses);
 /// 16 doubles per pose, column by column, as items take them; valid as long as the object. `count` is of poses.
 VXT_API const double* vxt_poses_get(const vxt_poses* poses, size_t* count);
 /// Ends it.
@@ -66,7 +68,7 @@ VXT_API void vxt_poses_destroy(vxt_poses* poses);
 /// Poses as vxt_read_poses() reads them, some at a time, in constant memory: voxtact::io::PoseReader.
 typedef struct vxt_pose_reader vxt_pose_reader;
 /// Refuses a file that cannot be opened.
-VXT_CHECKED vxt_result vxt_pose_reader_open(const char* path, vxt_pose_reader** reader);
+VXT_CHECKED vxt_result vxt_pose_reader_open(const char* path, const char* format, vxt_pose_reader** reader);
 /// The next poses, at most `most`, into `poses`, 16 doubles each, column by column. `count` is how many there were: 0
 /// after the last one.
 VXT_CHECKED vxt_result vxt_pose_reader_read(vxt_pose_reader* reader, double* poses, size_t most, size_t* count);

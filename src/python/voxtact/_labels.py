@@ -106,6 +106,8 @@ def read_labels(source: Any, *, names: Union[None, dict[int, str], str, os.PathL
 
     names: what the labels are called, as a dict or a file (see `read_label_names`).
     """
+    if options.get("resample"):
+        raise InvalidArgumentError("resample= is for images: labels are not interpolated")
     known = _checked(names) if names is None or isinstance(names, dict) else read_label_names(names)
     if isinstance(source, Labels):
         read_volume(source.volume, **options)  # which has nothing to say to it
