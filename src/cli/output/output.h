@@ -21,6 +21,12 @@ struct OutputOptions {
     [[nodiscard]] io::Format format() const;
 };
 
+/// The column of commands with --resample: whether the volume was.
+inline constexpr const char* kResampledColumn = "resampled";
+[[nodiscard]] inline io::Cell resampledCell(bool isResampled) {
+    return isResampled ? io::NumberWord{1, "yes"} : io::NumberWord{0, "no"};
+}
+
 /// Whether `path` can be written, found out without writing: no work is done for nothing. Fine when it is empty.
 [[nodiscard]] Result<void> checkOutput(const std::filesystem::path& path);
 

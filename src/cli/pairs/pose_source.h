@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "cli/options/shared_options.h"
 #include "voxtact/io.h"
 
 #include <cstdint>
@@ -16,10 +17,9 @@ namespace voxtact::app {
 class PoseSource {
   public:
     /// No path: the identity. "-": standard input, which is read as it is asked for, or all at once where it is needed
-    /// `again`. A file is read once at once, so that what is wrong with it is known before there are answers. `space`:
-    /// of the file; poses come out in LPS.
-    [[nodiscard]] static Result<PoseSource> open(const std::filesystem::path& path, bool again,
-                                                 const std::string& space = "lps");
+    /// `again`. A file is read once at once, so that what is wrong with it is known before there are answers. Poses
+    /// come out in LPS.
+    [[nodiscard]] static Result<PoseSource> open(const ViewOptions& how, bool again);
 
     /// How many there are, where that is known.
     [[nodiscard]] std::optional<std::uint64_t> count() const noexcept { return count_; }
@@ -32,9 +32,11 @@ class PoseSource {
   private:
     PoseSource() = default;
     [[nodiscard]] Result<void> takeStock();
+    [[nodiscard]] Result<io::PoseReader> reader() const;
 
     std::filesystem::path path_;
     std::string space_;
+    io::PoseFormat format_ = io::PoseFormat::Matrix;
     std::optional<std::uint64_t> count_;
     std::vector<Mat4> kept_; ///< all of them, where they are few
     bool isKept_ = false;
