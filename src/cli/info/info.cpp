@@ -17,10 +17,10 @@ namespace {
 
 constexpr const char* kInfoFooter =
     R"(Volumes: size, spacing, orientation, world box (mm, LPS), values, histogram,
-opaque share. Meshes: triangles, vertices, parts, box, closed or not, and a unit
-that looks wrong. Each mesh with each volume: how much of its box is inside, the
-distance of the boxes, and the option that would bring the mesh there. The ending
-tells the kind; folders are DICOM series.
+opaque share. Meshes: triangles, vertices, parts, box, closed or not, and a
+unit that looks wrong. Each mesh with each volume: how much of its box is
+inside, the distance of the boxes, and the option that would bring it there.
+The ending tells the kind; folders are DICOM series.
 
 Examples:
   voxtact info head.nii.gz tool.stl
