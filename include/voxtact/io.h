@@ -36,6 +36,9 @@ struct VolumeReadOptions {
     ReadProgress progress{};
     /// Grid of the image to which the contours of an RTSTRUCT belong; only readLabels() uses it.
     std::optional<Grid> grid{};
+    /// Resamples DICOM slices that make no regular grid (uneven gaps, a tilted gantry) instead of refusing them: by
+    /// linear interpolation, as floats, with a note. readLabels() does not: labels are not interpolated.
+    bool resample = false;
 };
 
 /// Maximum shear of a NIfTI sform, degrees: a larger shear comes from a registration to a template, and does not place
@@ -58,14 +61,17 @@ inline constexpr double kMaxShear = 0.1;
 /// sform gives a note; an sform with a shear above kMaxShear is refused. Lengths in metres and micrometres become
 /// millimetres. NRRD and MetaImage: shears are kept and give a note.
 ///
-/// Refuses 2D images, 4D without a chosen image, RGB, complex, vector and empty images, NaN and infinite voxels (the
-/// error names the first), positions that are not finite, singular directions, and truncated and damaged files
-/// (checksums of compressed data are verified). Refuses DICOM folders with several series unless one is chosen, fewer
-/// than 2 slices, missing slices, uneven gaps, a tilted gantry, mosaics, and invalid .dcm files. Memory is bounded by
-/// the size of the file, whatever its header claims; deflate expands at most 1032-fold.
+/// Refuses 2D, 4D with more than one image unless it is chosen, RGB, complex and vector images, empty images, NaN and
+/// infinite voxels (the first is named), places that are not finite, singular directions, truncated and damaged files
+/// (checksums of compressed data are verified), and DICOM folders with several series unless one is chosen, fewer than
+/// 2 slices, mosaics, missing slices, uneven gaps and a tilted gantry unless they are resampled, and files that end in
+/// .dcm and are none. Memory is bounded by what the file holds, whatever its header claims; compressed, deflate packs
+/// up to 1032 bytes into one.
 [[nodiscard]] VOXTACT_API Result<VolumeData> readVolume(const std::filesystem::path& path,
                                                         const VolumeReadOptions& options = {});
-/// Like readVolume(path), from the bytes of one file; the ending of `name` selects the format.
+/// True if VolumeReadOptions::resample changed the voxels of a volume; its notes say how.
+[[nodiscard]] VOXTACT_API bool wasResampled(const VolumeData& volume) noexcept;
+/// The same from one file's bytes in memory; the ending of `name` says the format.
 [[nodiscard]] VOXTACT_API Result<VolumeData> readVolume(std::string_view name, std::span<const std::byte> content,
                                                         const VolumeReadOptions& options = {});
 
@@ -142,15 +148,32 @@ readMesh(std::span<const std::byte> content, const std::filesystem::path& name, 
 /// to floats. Refuses what checkMesh() refuses.
 VOXTACT_API Result<void> writeMesh(const std::filesystem::path& path, const MeshView& mesh);
 
-/// Reads poses in parts, in constant memory, with the syntax of readPoses().
+/// How a file states poses.
+enum class PoseFormat {
+    Matrix,          ///< matrices, in all forms of readPoses()
+    TranslationXyzw, ///< 7 numbers a line: a translation in mm and a unit quaternion x y z w
+    TranslationWxyz, ///< a translation and w x y z
+    XyzwTranslation, ///< x y z w and a translation
+    WxyzTranslation, ///< w x y z and a translation
+};
+/// All formats.
+[[nodiscard]] VOXTACT_API std::span<const PoseFormat> poseFormats() noexcept;
+/// "matrix", "t-xyzw", "t-wxyz", "xyzw-t" or "wxyz-t"; static lifetime.
+[[nodiscard]] VOXTACT_API const char* toString(PoseFormat format) noexcept;
+/// The format of a name; none if the name is unknown.
+[[nodiscard]] VOXTACT_API std::optional<PoseFormat> poseFormatFromName(std::string_view name) noexcept;
+
+/// Poses as readPoses() reads them, some at a time: in constant memory.
 /// Thread-safety: none; one thread at a time.
 class PoseReader {
   public:
-    /// Opens a file. Refuses a file that cannot be opened.
-    [[nodiscard]] VOXTACT_API static Result<PoseReader> open(const std::filesystem::path& path);
-    /// Reads from a stream, which must outlive the reader; errors call it `name`. Uses its buffer and leaves its state,
-    /// which must not be bad.
-    [[nodiscard]] VOXTACT_API static Result<PoseReader> over(std::istream& stream, const std::string& name);
+    /// Refuses a file that cannot be opened.
+    [[nodiscard]] VOXTACT_API static Result<PoseReader> open(const std::filesystem::path& path,
+                                                             PoseFormat format = PoseFormat::Matrix);
+    /// `name` is what errors call the stream, which must outlive the reader. Its buffer is read; its state, which must
+    /// not be bad, stays as it is.
+    [[nodiscard]] VOXTACT_API static Result<PoseReader> over(std::istream& stream, const std::string& name,
+                                                             PoseFormat format = PoseFormat::Matrix);
     VOXTACT_API PoseReader(PoseReader&&) noexcept;
     VOXTACT_API PoseReader& operator=(PoseReader&&) noexcept;
     VOXTACT_API ~PoseReader();
@@ -165,12 +188,14 @@ class PoseReader {
     std::unique_ptr<State> state_;
 };
 
-/// Reads poses: one matrix per line, 16 numbers, or 12 without the last row, row by row, separated by blanks or commas;
-/// or four lines of 4 numbers; or an affine ITK transform (the lines Transform, Parameters and FixedParameters), whose
-/// inverse is the pose, as 3D Slicer writes it. `#` begins a comment; empty lines are skipped. Numbers have a decimal
-/// point in every locale. Errors name the line ("poses.txt line 7: 15 numbers, a pose has 16, or 12 (row by row)").
-/// Refuses what checkAffine() refuses, and a file without a matrix.
-[[nodiscard]] VOXTACT_API Result<std::vector<Mat4>> readPoses(const std::filesystem::path& path);
+/// One matrix a line: 16 numbers, or 12 without the last row, row by row, with blanks or commas between them; or four
+/// lines of 4 numbers; or an affine transform of ITK (the lines Transform, Parameters and FixedParameters), whose
+/// inverse is the pose, as 3D Slicer writes it. Other formats: 7 numbers a line; the translation is that of the
+/// object's origin. `#` comments and empty lines. Numbers have a decimal point in every locale. Errors name the line
+/// ("poses.txt line 7: 15 numbers, a pose has 16, or 12 (row by row)"). Refuses what checkAffine() refuses, a
+/// quaternion whose norm is off 1 by more than 0.001 (others are normalised), and a file without a pose.
+[[nodiscard]] VOXTACT_API Result<std::vector<Mat4>> readPoses(const std::filesystem::path& path,
+                                                              PoseFormat format = PoseFormat::Matrix);
 
 /// Reads one `clip_from_world` matrix: 16 numbers, row by row, on any number of lines. Refuses a singular matrix.
 [[nodiscard]] VOXTACT_API Result<Mat4> readCamera(const std::filesystem::path& path);

@@ -37,6 +37,7 @@ io::VolumeReadOptions toOptions(const vxt_volume_read_options* given) {
     if (options.series != nullptr) {
         out.series = options.series;
     }
+    out.resample = options.resample != 0;
     return out;
 }
 
@@ -47,6 +48,18 @@ io::MeshReadOptions toOptions(const vxt_mesh_read_options* given) {
         reading.space = io::MeshSpace::RAS;
     }
     return reading;
+}
+
+io::PoseFormat toPoseFormat(const char* name) {
+    const std::optional<io::PoseFormat> format = io::poseFormatFromName(name == nullptr ? "matrix" : name);
+    if (!format) {
+        std::string known;
+        for (const io::PoseFormat one : io::poseFormats()) {
+            known += (known.empty() ? "" : ", ") + std::string(toString(one));
+        }
+        refuse(ErrorCode::InvalidArgument, "format '" + std::string(name) + "' is not known; there are: " + known);
+    }
+    return *format;
 }
 
 std::vector<vxt_control_point> fromPoints(const std::vector<ControlPoint>& points) {
@@ -121,12 +134,12 @@ vxt_result vxt_read_camera(const char* path, double clip_from_world[16]) {
     return call([&] { writeMat4(clip_from_world, take(io::readCamera(toPath(path))), "clip_from_world"); });
 }
 
-vxt_result vxt_read_poses(const char* path, vxt_poses** poses) {
-    return create(poses, [&] { return take(io::readPoses(toPath(path))); });
+vxt_result vxt_read_poses(const char* path, const char* format, vxt_poses** poses) {
+    return create(poses, [&] { return take(io::readPoses(toPath(path), toPoseFormat(format))); });
 }
 
-vxt_result vxt_pose_reader_open(const char* path, vxt_pose_reader** reader) {
-    return create(reader, [&] { return take(io::PoseReader::open(toPath(path))); });
+vxt_result vxt_pose_reader_open(const char* path, const char* format, vxt_pose_reader** reader) {
+    return create(reader, [&] { return take(io::PoseReader::open(toPath(path), toPoseFormat(format))); });
 }
 
 vxt_result vxt_pose_reader_read(vxt_pose_reader* reader, double* poses, size_t most, size_t* count) {

@@ -53,11 +53,11 @@ vxt_result vxt_read_camera(const char*, double[16]) {
     return absent(kNoFiles);
 }
 
-vxt_result vxt_read_poses(const char*, vxt_poses** poses) {
+vxt_result vxt_read_poses(const char*, const char*, vxt_poses** poses) {
     return absent(kNoFiles, poses);
 }
 
-vxt_result vxt_pose_reader_open(const char*, vxt_pose_reader** reader) {
+vxt_result vxt_pose_reader_open(const char*, const char*, vxt_pose_reader** reader) {
     return absent(kNoFiles, reader);
 }
 

@@ -228,12 +228,18 @@ TEST_F(CFiles, RefusalsAreTheReaders) {
 
 TEST_F(CFiles, TextsBecomeArrays) {
     const std::string file = write("poses.txt", "1 0 0 5  0 1 0 6  0 0 1 7  0 0 0 1\n");
-    const auto poses = made(vxt_poses_destroy, vxt_read_poses, file.c_str());
+    const auto poses = made(vxt_poses_destroy, vxt_read_poses, file.c_str(), nullptr);
     std::size_t count = 0;
     const double* matrices = vxt_poses_get(poses.get(), &count);
     ASSERT_EQ(count, 1U);
     EXPECT_EQ(matrices[12], 5); // column by column
     EXPECT_EQ(matrices[14], 7);
+    const std::string rigid = write("rigid.txt", "1 0 0 0 5 6 7\n");
+    const auto turned = made(vxt_poses_destroy, vxt_read_poses, rigid.c_str(), "wxyz-t");
+    EXPECT_TRUE(std::equal(matrices, matrices + 16, vxt_poses_get(turned.get(), &count)));
+    vxt_poses* none = nullptr;
+    EXPECT_EQ(vxt_read_poses(rigid.c_str(), "wxyz", &none), VXT_ERROR_INVALID_ARGUMENT);
+    EXPECT_THAT(vxt_last_error(nullptr), HasSubstr("format 'wxyz' is not known; there are: matrix, t-xyzw"));
     double camera[16] = {};
     need(vxt_read_camera(file.c_str(), camera));
     EXPECT_EQ(camera[13], 6);
@@ -303,7 +309,7 @@ TEST_F(CFiles, PosesSomeAtATime) {
         text += "1 0 0 " + std::to_string(i) + "  0 1 0 0  0 0 1 0  0 0 0 1\n";
     }
     const std::string cut = write("poses.txt", text + "1 2 3\n");
-    const auto reader = made(vxt_pose_reader_destroy, vxt_pose_reader_open, cut.c_str());
+    const auto reader = made(vxt_pose_reader_destroy, vxt_pose_reader_open, cut.c_str(), nullptr);
     Mat4 poses[2];
     std::size_t count = 9;
     for (const double first : {0.0, 2.0}) {
@@ -316,7 +322,7 @@ TEST_F(CFiles, PosesSomeAtATime) {
     EXPECT_THAT(vxt_last_error(nullptr), HasSubstr("line 7"));
     EXPECT_EQ(count, 0U);
     const std::string good = write("good.txt", text);
-    const auto all = made(vxt_pose_reader_destroy, vxt_pose_reader_open, good.c_str());
+    const auto all = made(vxt_pose_reader_destroy, vxt_pose_reader_open, good.c_str(), "matrix");
     std::vector<Mat4> room(9);
     need(vxt_pose_reader_read(all.get(), room.data()->data(), room.size(), &count));
     EXPECT_EQ(count, 5U);

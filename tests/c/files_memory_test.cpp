@@ -45,7 +45,7 @@ void expectWhole(const char* what, void (*destroy)(Handle*), auto read, auto cou
 TEST_F(FilesMemory, OfPoses) {
     const char* const path = write("0 0 0  0 1 0 0  0 0 1 0  0 0 0 1");
     expectWhole<vxt_poses>(
-        "poses", vxt_poses_destroy, [&](auto out) { return vxt_read_poses(path, out); },
+        "poses", vxt_poses_destroy, [&](auto out) { return vxt_read_poses(path, nullptr, out); },
         [](const vxt_poses* poses) {
             std::size_t count = 0;
             return vxt_poses_get(poses, &count) != nullptr ? count : 0;
@@ -61,7 +61,7 @@ TEST_F(FilesMemory, OfPosesSomeAtATime) {
         [&] {
             vxt_pose_reader* reader = nullptr;
             double poses[kLines * 16];
-            vxt_result result = vxt_pose_reader_open(path, &reader);
+            vxt_result result = vxt_pose_reader_open(path, nullptr, &reader);
             if (result == VXT_OK) {
                 result = vxt_pose_reader_read(reader, poses, kLines, &count);
             }

@@ -226,6 +226,61 @@ TEST_F(DistanceTest, SegmentsNameTheLabels) {
     EXPECT_EQ(measured({"70", "--label-names", path("names.txt")})[0].at("label_name"), "bone");
 }
 
+/// NRRD of bytes on a grid of 10 mm that begins at a voxel of the image's.
+std::string nrrd(const std::array<int, 3>& first, const std::array<int, 3>& size, const std::string& voxels) {
+    const auto list = [](const std::array<int, 3>& of, const char* between, int factor) {
+        return std::to_string(factor * of[0]) + between + std::to_string(factor * of[1]) + between +
+               std::to_string(factor * of[2]);
+    };
+    return "NRRD0004\ntype: uint8\ndimension: 3\nspace: left-posterior-superior\nsizes: " + list(size, " ", 1) +
+           "\nspace directions: (10,0,0) (0,10,0) (0,0,10)\nspace origin: (" + list(first, ",", 10) +
+           ")\nencoding: raw\n\n" + voxels;
+}
+
+/// As DICOM SEG often is: around the segment alone. The same rows as of the whole map, for the distance, the area and
+/// the overlap, and as obstacle of a plan.
+TEST_F(DistanceTest, LabelMapsOnAPartOfTheGrid) {
+    const auto inside = [](int x, int y, int z) { return x >= 3 && x < 6 && y >= 2 && y < 5 && z >= 4 && z < 8; };
+    std::string whole(1000, '\0');
+    for (int i = 0; i < 1000; ++i) {
+        whole[static_cast<std::size_t>(i)] = inside(i % 10, i / 10 % 10, i / 100) ? '\7' : '\0';
+    }
+    writeText(path("image.nrrd"), nrrd({0, 0, 0}, {10, 10, 10}, std::string(1000, '\x78')));
+    writeText(path("whole.nrrd"), nrrd({0, 0, 0}, {10, 10, 10}, whole));
+    writeText(path("part.nrrd"), nrrd({3, 2, 4}, {3, 3, 4}, std::string(36, '\7')));
+    writeText(path("beyond.nrrd"), nrrd({8, 2, 4}, {3, 3, 4}, std::string(36, '\7')));
+    writeText(path("pose.txt"), "1 0 0 45 0 1 0 30 0 0 1 20 0 0 0 1\n");
+    const auto measured = [&](const std::string& command, const char* option, const std::string& labels) {
+        return Arguments{command,
+                         "--volume",
+                         path("image.nrrd"),
+                         "--mesh",
+                         "builtin:scalpel:500",
+                         "--iso",
+                         "100",
+                         "--poses",
+                         path("pose.txt"),
+                         "--labels",
+                         labels,
+                         option,
+                         "7"};
+    };
+    for (const auto& [command, option] :
+         std::map<std::string, const char*>{{"distance", "--to"}, {"area", "--in"}, {"overlap", "--in"}}) {
+        const std::string expected = output(measured(command, option, path("whole.nrrd")));
+        EXPECT_EQ(output(measured(command, option, path("part.nrrd"))), expected) << command;
+        EXPECT_THAT(refused(1, measured(command, option, path("beyond.nrrd"))),
+                    HasSubstr("its 3 x 3 x 4 voxels begin at voxel 8, 2, 4 of the volume's 10 x 10 x 10, and reach "
+                              "beyond them"));
+    }
+    EXPECT_NE(rowsOf(output(measured("area", "--in", path("part.nrrd"))))[0].at("lower"), "0");
+    const auto plan = [&](const std::string& labels) {
+        return output({"plan", "--volume", path("image.nrrd"), "--iso", "100", "--target", "20,20,20", "--labels",
+                       path(labels), "--avoid", "7", "--entries", "42", "--border-entries"});
+    };
+    EXPECT_EQ(plan("part.nrrd"), plan("whole.nrrd"));
+}
+
 TEST_F(DistanceTest, RefusesALabelMapOnAnotherGrid) {
     output({"make", "volume", "builtin:head:18", path("coarse.nii.gz")});
     EXPECT_THAT(refused(1, detect({"--labels", path("coarse.nii.gz"), "--to", "all"})),

@@ -37,7 +37,7 @@ class PoseSourceTest : public CliTest {
 TEST_F(PoseSourceTest, AFileThatChangesIsNoticed) {
     constexpr std::size_t kPoses = 70000; // more than are kept
     writeText(path("poses.txt"), lines(kPoses));
-    app::PoseSource source = take(app::PoseSource::open(path("poses.txt"), true));
+    app::PoseSource source = take(app::PoseSource::open({.poses = path("poses.txt")}, true));
     EXPECT_EQ(source.count(), kPoses);
     EXPECT_EQ(take(readAll(source)), kPoses);
     for (const std::size_t other : {kPoses - 1, kPoses - 20000, std::size_t{0}, kPoses + 1}) {

@@ -40,7 +40,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static const Folder folder;
     std::ofstream(folder.path() / "input", std::ios::binary)
         .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
-    const auto volume = io::readVolume(folder.path());
+    const auto volume = io::readVolume(folder.path(), {.resample = true});
     if (!volume) {
         fuzz::requireOneLine(volume.error().text);
         return 0;

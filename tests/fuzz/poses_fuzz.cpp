@@ -6,14 +6,16 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace voxtact;
-    const auto poses = io::readPoses(fuzz::fileOf(data, size));
-    if (!poses) {
-        fuzz::requireOneLine(poses.error().text);
-        return 0;
-    }
-    fuzz::require(!poses->empty(), "a file that is read has a pose");
-    for (const Mat4& pose : *poses) {
-        fuzz::require(checkAffine(pose, "pose").ok(), "a pose that is read is affine");
+    for (const io::PoseFormat format : io::poseFormats()) {
+        const auto poses = io::readPoses(fuzz::fileOf(data, size), format);
+        if (!poses) {
+            fuzz::requireOneLine(poses.error().text);
+            continue;
+        }
+        fuzz::require(!poses->empty(), "a file that is read has a pose");
+        for (const Mat4& pose : *poses) {
+            fuzz::require(checkAffine(pose, "pose").ok(), "a pose that is read is affine");
+        }
     }
     return 0;
 }

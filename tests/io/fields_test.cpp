@@ -375,6 +375,10 @@ void Fields::labels() {
            "Layer:=0\nSegment0_Color:=1 0 0\nSegment1_Name:=b\nSegment1_LabelValue:=1\nSegment1_Layer:=1",
            "Layer:=1\nSegment0_Color:=1 0 0\nSegment1_Name:=b\nSegment1_LabelValue:=1\nSegment1_Layer:=0");
     differ("Segment0_Color", "Color:=1", "Color:=0");
+    differ("Segment0_Extent", "Segment0_Color", "Segment0_Extent:=0 0 0 1 0 1\nSegment0_Color");
+    differ("Segmentation_ReferenceImageExtentOffset", "Segment0_Color",
+           "Segmentation_ReferenceImageExtentOffset:=5 6 7\nSegment0_Color");
+    differ("space origin", "origin: (0,0,0)", "origin: (0,4,0)");
     dicomLabels();
 }
 
@@ -387,16 +391,17 @@ void Fields::dicomLabels() {
         grid.size = {4, 4, 2};
         return outcomeOf(io::readLabels(folder_.write("l.dcm", set.file()), {.grid = grid}));
     };
-    const auto position = [&](const char* at) {
+    const auto position = [&](const char* at, std::uint16_t segment = 1) {
         return DicomSet()
             .sequence(0x00209113, {item(0x00200032, "DS", at)})
-            .sequence(0x0062000A, {DicomSet().number(0x0062000B, 1)});
+            .sequence(0x0062000A, {DicomSet().number(0x0062000B, segment)});
     };
-    const auto shared = [&](const char* gap, const char* thickness) {
+    const auto shared = [&](const char* gap, const char* thickness, const char* orientation = "1\\0\\0\\0\\1\\0",
+                            const char* spacing = "1\\1") {
         return DicomSet()
             .sequence(0x00289110,
-                      {item(0x00280030, "DS", "1\\1").text(0x00180088, "DS", gap).text(0x00180050, "DS", thickness)})
-            .sequence(0x00209116, {item(0x00200037, "DS", "1\\0\\0\\0\\1\\0")});
+                      {item(0x00280030, "DS", spacing).text(0x00180088, "DS", gap).text(0x00180050, "DS", thickness)})
+            .sequence(0x00209116, {item(0x00200037, "DS", orientation)});
     };
     DicomSet seg;
     seg.text(0x00080016, "UI", "1.2.840.10008.5.1.4.1.1.66.4").text(0x00280008, "IS", "2").number(0x00280002, 1);
@@ -414,6 +419,13 @@ void Fields::dicomLabels() {
     differ("SegmentLabel",
            DicomSet(seg).sequence(0x00620002, {DicomSet().number(0x00620004, 1).text(0x00620005, "LO", "b")}));
     differ("ReferencedSegmentNumber", DicomSet(seg).sequence(0x00620002, {DicomSet().number(0x00620004, 2)}));
+    differ("SegmentNumber", DicomSet(seg)
+                                .sequence(0x00620002, {DicomSet().number(0x00620004, 3).text(0x00620005, "LO", "a")})
+                                .sequence(0x52009230, {position("0\\0\\0", 3), position("0\\0\\2", 3)}));
+    differ("ImageOrientationPatient", DicomSet(seg).sequence(0x52009229, {shared("1", "1", "0\\1\\0\\-1\\0\\0")}));
+    differ("PixelSpacing", DicomSet(seg).sequence(0x52009229, {shared("1", "1", "1\\0\\0\\0\\1\\0", "1\\2")}));
+    differ("SegmentsOverlap", DicomSet(seg).text(0x00620013, "CS", "YES"));
+    differ("FrameOfReferenceUID", DicomSet(seg).text(0x00200052, "UI", "7.7"));
     differ("SegmentAlgorithmType",
            DicomSet(seg).sequence(0x00620002, {DicomSet().number(0x00620004, 1).text(0x00620005, "LO", "a")}));
     differ("SpacingBetweenSlices", DicomSet(seg).sequence(0x52009229, {shared("2", "1")}));
@@ -437,6 +449,19 @@ void Fields::dicomLabels() {
     change("ReferencedROINumber", contours("CLOSED_PLANAR", square, "2", "a"));
     change("ContourGeometricType", contours("OPEN_PLANAR", square, "1", "a"));
     change("ContourData", contours("CLOSED_PLANAR", "0\\0\\0" + square.substr(5), "1", "a"));
+    const auto numbered = [&](const char* number) {
+        return DicomSet(contours("CLOSED_PLANAR", square, number, "a"))
+            .sequence(0x30060020, {item(0x30060022, "IS", number).text(0x30060026, "LO", "a")});
+    };
+    change("ROINumber", numbered("5"));
+    change("NumberOfContourPoints",
+           DicomSet(plain).sequence(0x30060039, {item(0x30060084, "IS", "1")
+                                                     .sequence(0x30060040, {item(0x30060042, "CS", "CLOSED_PLANAR")
+                                                                                .text(0x30060050, "DS", square)
+                                                                                .text(0x30060046, "IS", "4")})}));
+    change("ReferencedFrameOfReferenceUID",
+           DicomSet(plain).sequence(
+               0x30060020, {item(0x30060022, "IS", "1").text(0x30060024, "UI", "7.7").text(0x30060026, "LO", "a")}));
     DicomSet titled = contours("CLOSED_PLANAR", square, "1", "a");
     titled.text(0x30060002, "SH", "a set");
     change("StructureSetLabel", titled);
@@ -476,6 +501,14 @@ void Fields::vtk() {
            "<PolyData><FieldData><Array type=\"String\" Name=\"SPACE\" format=\"ascii\">"
            "82 65 83 0</Array></FieldData>");
     change("connectivity", "AAAAAAABAAAAAg", "AAAAAAACAAAAAQ");
+    change("NumberOfComponents", "NumberOfComponents=\"3\"", "NumberOfComponents=\"2\"");
+    const std::string strip = R"(<Strips><DataArray type="Int32" Name="connectivity" format="ascii">0 2 1</DataArray>)"
+                              R"(<DataArray type="Int32" Name="offsets" format="ascii">3</DataArray></Strips>)";
+    change("Strips", " NumberOfPolys=\"1\"><Points>",
+           " NumberOfPolys=\"1\" NumberOfStrips=\"1\">" + strip + "<Points>");
+    const std::string line = R"(<Lines><DataArray type="Int32" Name="connectivity" format="ascii">0 2</DataArray>)"
+                             R"(<DataArray type="Int32" Name="offsets" format="ascii">2</DataArray></Lines>)";
+    change("Lines", " NumberOfPolys=\"1\"><Points>", " NumberOfPolys=\"1\" NumberOfLines=\"1\">" + line + "<Points>");
     change("PointData", "<Points>",
            "<PointData><DataArray type=\"Int8\" Name=\"s\" format=\"ascii\">1 2 3</DataArray>"
            "</PointData><Points>");

@@ -78,6 +78,55 @@ TEST(Poses, AsOtherProgramsWriteThem) {
     }
 }
 
+/// A third of a turn about (1, 1, 1): x becomes y, y becomes z. The order of the numbers is that of the format's name.
+TEST(Poses, TranslationsAndQuaternions) {
+    using io::PoseFormat;
+    const TemporaryFolder folder;
+    const auto read = [&](const std::string& text, PoseFormat format) {
+        return io::readPoses(folder.write("p.txt", text), format);
+    };
+    struct Case {
+        PoseFormat format;
+        const char* name;
+        const char* third;   ///< of a turn
+        const char* quarter; ///< about x: y becomes z
+    };
+    const Mat4 third{0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 7, 8, 9, 1};
+    const Mat4 quarter{1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 1, -2, 3, 1};
+    for (const Case& one :
+         {Case{PoseFormat::TranslationXyzw, "t-xyzw", "7 8 9 .5 .5 .5 .5", "1,-2,3,0.70710678,0,0,0.70710678"},
+          Case{PoseFormat::TranslationWxyz, "t-wxyz", "7 8 9 -.5 -.5 -.5 -.5", "1 -2 3 0.70710678 0.70710678 0 0"},
+          Case{PoseFormat::XyzwTranslation, "xyzw-t", ".5 .5 .5 .5 7 8 9", "0.70710678, 0, 0, 0.70710678, 1, -2, 3"},
+          Case{PoseFormat::WxyzTranslation, "wxyz-t", ".5 .5 .5 .5 7 8 9", "0.70710678 0.70710678 0 0 1 -2 3"}}) {
+        EXPECT_STREQ(toString(one.format), one.name);
+        EXPECT_EQ(io::poseFormatFromName(one.name), one.format);
+        const auto poses = read(std::string("# t q\n") + one.third + "\n\n" + one.quarter + " # last\n", one.format);
+        ASSERT_TRUE(isOk(poses)) << one.name;
+        ASSERT_EQ(poses->size(), 2U);
+        EXPECT_EQ((*poses)[0], third) << one.name;
+        for (std::size_t i = 0; i < quarter.size(); ++i) {
+            EXPECT_NEAR((*poses)[1][i], quarter[i], 1e-15) << one.name << ' ' << i; // the norm is 1 - 1e-9
+        }
+    }
+    EXPECT_EQ(io::poseFormatFromName("matrix"), PoseFormat::Matrix);
+    EXPECT_EQ(io::poseFormatFromName("xyzw"), std::nullopt);
+    const auto refused = [&](const std::string& text, const char* reason, PoseFormat format) {
+        expectRefused(read(text, format), reason, "p.txt");
+    };
+    refused("0 0 0 0 0 0 1\n0 0 0 0.1 0 0 1\n",
+            "line 2: the quaternion has the norm 1.004987562112089, not 1; are its numbers in the order of the format "
+            "t-xyzw?",
+            PoseFormat::TranslationXyzw);
+    refused("0 0 0 0 0 0 1\n", "the norm 0, not 1", PoseFormat::XyzwTranslation);
+    refused("0 0 0 1e300 1e300 0 1\n", "the norm inf, not 1", PoseFormat::TranslationXyzw);
+    refused("0 0 0 0 0 1\n", "line 1: 6 numbers, a pose of the format t-wxyz has 7", PoseFormat::TranslationWxyz);
+    refused(kIdentity, "line 1: 16 numbers, a pose of the format wxyz-t has 7", PoseFormat::WxyzTranslation);
+    refused("0 0 0 0 0 0 x\n", "line 1: 'x' is not a number", PoseFormat::TranslationXyzw);
+    refused("# none\n", "it holds no pose; a pose is a line of 7 numbers", PoseFormat::TranslationXyzw);
+    refused("Transform: AffineTransform_double_3_3\n", "is not a number", PoseFormat::TranslationXyzw);
+    refused("0 0 0 0 0 0 1\n", "line 1: 7 numbers, a pose has 16, or 12 (row by row)", PoseFormat::Matrix);
+}
+
 TEST(Poses, ShortestTextIsExact) {
     const TemporaryFolder folder;
     const Mat4 pose{0.1, 1.0 / 3, -1e-300, 0, 2e17, 5e-324, 1, 0, 7, 8, 9, 0, -0.0, 1e308, 3, 1};

@@ -3,6 +3,7 @@
 import errno
 import os
 import pathlib
+import struct
 
 import numpy as np
 import pytest
@@ -259,3 +260,50 @@ def test_paths_in_a_list(tmp_path):
 def test_an_affine_beyond_measure():
     with pytest.raises(vx.InvalidArgumentError):
         vx.read_volume(noise(), axes="zyx", affine=np.diag([1e200, 1, 1, 1]))
+
+
+def dicom_slice(height: float) -> bytes:
+    """Explicit VR little endian without a preamble: 2 x 2 pixels that are 10 times as high as they lie."""
+    def element(group: int, number: int, kind: str, value: bytes) -> bytes:
+        value += b"" if len(value) % 2 == 0 else b"\0" if kind == "UI" else b" "
+        size = b"\0\0" + struct.pack("<I", len(value)) if kind == "OW" else struct.pack("<H", len(value))
+        return struct.pack("<HH", group, number) + kind.encode() + size + value
+
+    def short(number: int) -> bytes:
+        return struct.pack("<H", number)
+
+    return b"".join([
+        element(0x0008, 0x0016, "UI", b"1.2.840.10008.5.1.4.1.1.2"), element(0x0008, 0x0060, "CS", b"CT"),
+        element(0x0020, 0x000E, "UI", b"1.2.3.4"), element(0x0020, 0x0032, "DS", f"0\\0\\{height}".encode()),
+        element(0x0020, 0x0037, "DS", b"1\\0\\0\\0\\1\\0"), element(0x0028, 0x0002, "US", short(1)),
+        element(0x0028, 0x0004, "CS", b"MONOCHROME2"), element(0x0028, 0x0010, "US", short(2)),
+        element(0x0028, 0x0011, "US", short(2)), element(0x0028, 0x0030, "DS", b"1\\1"),
+        element(0x0028, 0x0100, "US", short(16)), element(0x0028, 0x0101, "US", short(16)),
+        element(0x0028, 0x0102, "US", short(15)), element(0x0028, 0x0103, "US", short(0)),
+        element(0x7FE0, 0x0010, "OW", short(round(10 * height)) * 4)])
+
+
+def test_uneven_slices_are_resampled_where_that_is_asked_for(tmp_path):
+    for height in (0, 1, 3, 4):
+        (tmp_path / f"s{height}").write_bytes(dicom_slice(height))
+    with pytest.raises(vx.FormatError, match="a slice is missing"):
+        vx.read_volume(tmp_path)
+    volume = vx.read_volume(tmp_path, resample=True)
+    assert volume.array.dtype == np.float32 and any("resampled to a regular grid" in note for note in volume.notes)
+    np.testing.assert_array_equal(volume.array[:, 1, 1], [0, 10, 20, 30, 40])
+    with pytest.raises(vx.InvalidArgumentError, match="labels are not interpolated"):
+        vx.read_labels(tmp_path, resample=True)
+    for source in ("builtin:head:16", noise(), vx.read_volume("builtin:head:16")):
+        with pytest.raises(vx.InvalidArgumentError, match="resample= is for a folder"):
+            vx.read_volume(source, resample=True)
+
+
+def test_poses_are_translations_and_quaternions(tmp_path):
+    (tmp_path / "poses.txt").write_text("7 8 9 0.5 0.5 0.5 0.5\n")
+    for name in ("t-xyzw", "t-wxyz"):
+        np.testing.assert_array_equal(vx.read_poses(tmp_path / "poses.txt", name),
+                                      [[[0, 0, 1, 7], [1, 0, 0, 8], [0, 1, 0, 9], [0, 0, 0, 1]]])
+    with pytest.raises(vx.FormatError, match="16"):
+        vx.read_poses(tmp_path / "poses.txt")
+    with pytest.raises(vx.InvalidArgumentError, match="'quaternion' is not known; there are: matrix, t-xyzw"):
+        vx.read_poses(tmp_path / "poses.txt", "quaternion")

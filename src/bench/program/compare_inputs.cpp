@@ -18,7 +18,7 @@ Result<void> choosePoses(const CompareOptions& options, lab::Scene& scene) {
         scene.poses = randomPoses(scene.volume->data.grid, scene.mesh->data.view(), options.number, options.seed);
         scene.posesFrom = "random, seed " + std::to_string(options.seed);
     } else {
-        Result<std::vector<Mat4>> poses = loadPoses(options.view.poses, options.view.posesSpace);
+        Result<std::vector<Mat4>> poses = loadPoses(options.view);
         VOXTACT_TRY(poses);
         scene.poses = std::move(*poses);
         scene.posesFrom = options.view.poses.string();

@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <iterator>
 
 namespace voxtact::app {
 
@@ -16,8 +17,10 @@ namespace {
 
 constexpr const char* kInfoFooter =
     R"(Volumes: size, spacing, orientation, world box (mm, LPS), values, histogram,
-opaque share. Meshes: triangles, vertices, parts, box, closed or not, and a unit
-that looks wrong. The ending tells the kind; folders are DICOM series.
+opaque share. Meshes: triangles, vertices, parts, box, closed or not, and a
+unit that looks wrong. Each mesh with each volume: how much of its box is
+inside, the distance of the boxes, and the option that would bring it there.
+The ending tells the kind; folders are DICOM series.
 
 Examples:
   voxtact info head.nii.gz tool.stl
@@ -30,6 +33,7 @@ struct InfoOptions {
     MeshOptions meshes;
     TransferFunctionOptions transferFunction;
     OutputOptions output;
+    bool resample = false;
 };
 
 bool isMesh(const std::string& source) {
@@ -52,12 +56,12 @@ Result<PathInfo> meshAt(const InfoOptions& options, const std::string& source) {
     VOXTACT_TRY(mesh);
     const Result<MeshFacts> facts = checkMesh(mesh->view());
     VOXTACT_TRY(facts);
-    return PathInfo{source, {}, MeshInfo{*facts, closednessOf(mesh->view()), unitHint(facts->bounds)}};
+    return PathInfo{source, {}, MeshInfo{*facts, closednessOf(mesh->view()), unitHint(facts->bounds)}, {}};
 }
 
 Result<PathInfo> volumeAt(const InfoOptions& options, const std::vector<ControlPoint>& points,
                           const std::string& source) {
-    const Result<VolumeData> volume = loadVolume(source);
+    const Result<VolumeData> volume = loadVolume(source, {.resample = options.resample});
     VOXTACT_TRY(volume);
     const Result<ValueRange> values = checkVolume(volume->view());
     VOXTACT_TRY(values);
@@ -65,7 +69,8 @@ Result<PathInfo> volumeAt(const InfoOptions& options, const std::vector<ControlP
     const ValueRange domain = tableDomain(function, volume->type, *values);
     const std::vector<ControlPoint> used = points.empty() ? defaultRamp(domain) : points;
     VOXTACT_TRY(checkOpacity({used, domain}, *values, function.threshold));
-    return PathInfo{source, volumeInfo(volume->view(), *values, used, function.threshold), {}};
+    return PathInfo{
+        source, volumeInfo(volume->view(), *values, used, function.threshold, io::wasResampled(*volume)), {}, {}};
 }
 
 Result<void> checkPaths(const InfoOptions& options) {
@@ -90,6 +95,23 @@ Result<void> checkPaths(const InfoOptions& options) {
     return checkOutputs({{"--output", options.output.path}}, inputs);
 }
 
+/// How each mesh lies to each volume.
+std::vector<PathInfo> pairsOf(const InfoOptions& options, const std::vector<PathInfo>& paths) {
+    const Mat4 pose = identity();
+    std::vector<PathInfo> pairs;
+    for (const PathInfo& mesh : paths) {
+        for (const PathInfo& volume : paths) {
+            if (mesh.mesh && volume.volume) {
+                const ReadMesh read{mesh.path, options.meshes, mesh.mesh->facts.bounds, {&pose, 1}};
+                const Grid& grid = volume.volume->grid;
+                pairs.push_back(
+                    {mesh.path, {}, {}, PairInfo{volume.path, placementOf(read, grid), otherReadings(read, grid)}});
+            }
+        }
+    }
+    return pairs;
+}
+
 Outcome runInfo(const InfoOptions& options) {
     VOXTACT_TRY(checkPaths(options));
     const Result<std::vector<ControlPoint>> points = loadControlPoints(options.transferFunction);
@@ -110,6 +132,7 @@ Outcome runInfo(const InfoOptions& options) {
     for (const std::string& source : options.meshes.sources) {
         VOXTACT_TRY(add(source, true));
     }
+    std::ranges::move(pairsOf(options, paths), std::back_inserter(paths));
     const Result<void> written = deliver(options.output.path, [&](std::ostream& out) -> Result<void> {
         if (options.output.format() == io::Format::Text) {
             writeInfoText(out, paths, options.transferFunction.threshold);
@@ -130,6 +153,7 @@ Command addInfo(CLI::App& program) {
     parser->add_option("PATH", options->paths, "volumes and meshes, as --volume and --mesh take them")
         ->type_name("...");
     addVolumeOption(*parser, options->volumes);
+    addResampleOption(*parser, options->resample);
     parser->get_option("--volume")->required(false);
     addMeshOptions(*parser, options->meshes, false);
     addTransferFunctionOptions(*parser, options->transferFunction);

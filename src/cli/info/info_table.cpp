@@ -55,18 +55,31 @@ template <class Get> Column ofMesh(std::string name, Get get) {
             [get](const PathInfo& path) { return path.mesh ? io::Cell(get(*path.mesh)) : io::Cell(); }};
 }
 
+template <class Get> Column ofPair(std::string name, Get get) {
+    return {std::move(name),
+            [get](const PathInfo& path) { return path.pair ? io::Cell(get(*path.pair)) : io::Cell(); }};
+}
+
 const Box& boxOf(const PathInfo& path) {
     return path.volume ? path.volume->world : path.mesh->facts.bounds;
 }
 
+std::string kindOf(const PathInfo& path) {
+    return path.volume ? "volume" : path.mesh ? "mesh" : "pair";
+}
+
+io::Cell hintOf(const PathInfo& path) {
+    return path.mesh    ? io::Cell(path.mesh->hint)
+           : !path.pair ? io::Cell()
+                        : io::Cell(path.pair->others.empty() ? std::string() : toText(path.pair->others.front()));
+}
+
 std::vector<Column> columns() {
-    std::vector<Column> all{
-        {"path", [](const PathInfo& path) { return path.path; }},
-        {"kind", [](const PathInfo& path) { return std::string(path.volume ? "volume" : "mesh"); }}};
+    std::vector<Column> all{{"path", [](const PathInfo& path) { return path.path; }}, {"kind", kindOf}};
     for (const bool upper : {false, true}) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             all.push_back({std::string(upper ? "max_" : "min_") + "xyz"[axis], [upper, axis](const PathInfo& path) {
-                               return rounded((upper ? boxOf(path).hi : boxOf(path).lo)[axis]);
+                               return path.pair ? io::Cell() : rounded((upper ? boxOf(path).hi : boxOf(path).lo)[axis]);
                            }});
         }
     }
@@ -96,7 +109,11 @@ std::vector<Column> columns() {
     all.push_back(ofMesh("open_edges", [](const MeshInfo& mesh) { return mesh.closedness.open; }));
     all.push_back(ofMesh("edges_of_many", [](const MeshInfo& mesh) { return mesh.closedness.many; }));
     all.push_back(ofMesh("turned_edges", [](const MeshInfo& mesh) { return mesh.closedness.turned; }));
-    all.push_back(ofMesh("hint", [](const MeshInfo& mesh) { return mesh.hint; }));
+    all.push_back({"hint", hintOf});
+    all.push_back(ofVolume("resampled", [](const VolumeInfo& volume) { return resampledCell(volume.isResampled); }));
+    all.push_back(ofPair("volume", [](const PairInfo& pair) { return pair.volume; }));
+    all.push_back(ofPair("overlap_percent", [](const PairInfo& pair) { return percent(pair.placement.overlap); }));
+    all.push_back(ofPair("box_distance", [](const PairInfo& pair) { return rounded(pair.placement.distance); }));
     return all;
 }
 
@@ -175,6 +192,18 @@ void writeMesh(std::ostream& out, const MeshInfo& mesh) {
     }
 }
 
+void writePair(std::ostream& out, const PairInfo& pair) {
+    out << "  in           " << escaped(pair.volume) << "\n  overlap      ";
+    if (pair.placement.overlap > 0) {
+        out << percentText(pair.placement.overlap) << " of the mesh's box is inside\n";
+    } else {
+        out << "none, the boxes are " << number(rounded(pair.placement.distance)) << " mm apart\n";
+    }
+    for (const OtherReading& other : pair.others) {
+        out << "  or           " << toText(other) << '\n';
+    }
+}
+
 } // namespace
 
 io::Table infoTable(const std::vector<PathInfo>& paths) {
@@ -196,8 +225,10 @@ void writeInfoText(std::ostream& out, const std::vector<PathInfo>& paths, double
         out << (&path == &paths.front() ? "" : "\n") << escaped(path.path) << '\n';
         if (path.volume) {
             writeVolume(out, *path.volume, threshold);
-        } else {
+        } else if (path.mesh) {
             writeMesh(out, *path.mesh);
+        } else {
+            writePair(out, *path.pair);
         }
     }
 }

@@ -3,6 +3,7 @@
 
 #include "cli/info/mesh_info.h"
 #include "cli/info/volume_info.h"
+#include "cli/options/placement.h"
 #include "cli/output/output.h"
 
 #include <iosfwd>
@@ -18,14 +19,22 @@ struct MeshInfo {
     std::string hint; ///< what strikes in its size; empty: nothing
 };
 
-/// Contents of a path: a volume or a mesh.
+/// How a mesh lies to a volume.
+struct PairInfo {
+    std::string volume; ///< its path
+    Placement placement;
+    std::vector<OtherReading> others; ///< the best first
+};
+
+/// What a path holds, a volume or a mesh, or how the mesh lies to a volume.
 struct PathInfo {
     std::string path;
     std::optional<VolumeInfo> volume;
     std::optional<MeshInfo> mesh;
+    std::optional<PairInfo> pair;
 };
 
-/// A row a path; columns that are about the other kind are empty.
+/// A row a path or pair; columns that are about the other kinds are empty.
 [[nodiscard]] io::Table infoTable(const std::vector<PathInfo>& paths);
 /// Writes text: one block per path, with the histogram as bars.
 void writeInfoText(std::ostream& out, const std::vector<PathInfo>& paths, double threshold);

@@ -98,7 +98,7 @@ std::string orientationLetters(const Grid& grid) {
 }
 
 VolumeInfo volumeInfo(const VolumeView& volume, const ValueRange& values, std::span<const ControlPoint> opacity,
-                      double threshold) {
+                      double threshold, bool isResampled) {
     const OpaqueIntervals intervals(opacity, threshold);
     VolumeInfo info;
     info.grid = volume.grid;
@@ -107,6 +107,7 @@ VolumeInfo volumeInfo(const VolumeView& volume, const ValueRange& values, std::s
     info.oblique = obliqueness(volume.grid);
     info.world = transformBox(worldFromTexture(volume.grid), {{0, 0, 0}, {1, 1, 1}});
     info.values = values;
+    info.isResampled = isResampled;
     const auto voxels = static_cast<std::size_t>(voxelCount(volume.grid));
     Bins bins(values, volume.type != ScalarType::Float32);
     std::uint64_t opaque = 0;

@@ -25,6 +25,7 @@ struct VolumeInfo {
     ValueRange values;
     double mean = 0;
     std::vector<HistogramBin> histogram; ///< equal parts of the range; one where all voxels are alike
+    bool isResampled = false;            ///< by --resample
     double opaque = 0;                   ///< share of the voxels whose opacity reaches the threshold, 0 to 1
 };
 
@@ -34,6 +35,6 @@ struct VolumeInfo {
 
 /// Expects a volume that checkVolume() accepts, with `values` for its range, and an `opacity` that sampleTable() does.
 [[nodiscard]] VolumeInfo volumeInfo(const VolumeView& volume, const ValueRange& values,
-                                    std::span<const ControlPoint> opacity, double threshold);
+                                    std::span<const ControlPoint> opacity, double threshold, bool isResampled);
 
 } // namespace voxtact::app

@@ -48,6 +48,7 @@ struct MakeFileOptions {
 };
 
 struct MakePosesOptions {
+    bool resample = false;
     std::vector<std::string> volumes;
     MeshOptions meshes;
     std::uint32_t number = 100;
@@ -154,7 +155,7 @@ Outcome makePoses(const MakePosesOptions& options) {
         !writable.ok()) {
         return writable.error();
     }
-    const Result<VolumeData> volume = loadVolume(options.volumes.front());
+    const Result<VolumeData> volume = loadVolume(options.volumes.front(), {.resample = options.resample});
     VOXTACT_TRY(volume);
     const Result<MeshData> mesh = loadMesh(options.meshes.sources.front(), options.meshes);
     VOXTACT_TRY(mesh);
@@ -186,6 +187,7 @@ Command addMakePoses(CLI::App& make) {
     CLI::App* parser = make.add_subcommand("poses", "write random rigid poses around a volume");
     parser->footer(kPosesFooter);
     addVolumeOption(*parser, options->volumes);
+    addResampleOption(*parser, options->resample);
     addMeshOptions(*parser, options->meshes);
     addWholeNumber(*parser, "--number", options->number, 1, "number of poses");
     addSeed(*parser, options->seed);

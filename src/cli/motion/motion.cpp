@@ -3,6 +3,7 @@
 #include "cli/motion/motion_output.h"
 #include "cli/motion/motion_run.h"
 #include "cli/options/opacity_notes.h"
+#include "cli/options/placement.h"
 #include "cli/output/interrupt.h"
 #include "cli/output/standard_streams.h"
 #include "core/base/try.h"
@@ -49,7 +50,7 @@ Result<void> checkPaths(const MotionOptions& options) {
 }
 
 Result<void> readPoses(const MotionOptions& options, MotionInputs& inputs) {
-    Result<std::vector<Mat4>> poses = loadPoses(options.view.poses, options.view.posesSpace);
+    Result<std::vector<Mat4>> poses = loadPoses(options.view);
     VOXTACT_TRY(poses);
     inputs.poses = std::move(*poses);
     return inputs.poses.size() >= 2
@@ -63,8 +64,9 @@ Result<void> readLabels(const MotionOptions& options, MotionInputs& inputs) {
         return options.labels.names.empty() ? Result<void>()
                                             : badArgument("--label-names: it needs a label map; add --labels");
     }
-    Result<NamedLabels> named = loadNamedLabels(options.labels.path, options.labels.names,
-                                                [&] { return gridOfVolume(options.volumes.front()); });
+    Result<NamedLabels> named = loadNamedLabels(options.labels.path, options.labels.names, [&] {
+        return gridOfVolume(options.volumes.front(), options.resample);
+    });
     VOXTACT_TRY(named);
     inputs.labels = std::move(named->labels);
     inputs.labelNames = std::move(named->names);
@@ -109,7 +111,7 @@ Result<void> checkAll(const MotionOptions& options, const MotionInputs& inputs, 
     return {};
 }
 
-Outcome writeMotions(const MotionOptions& options, const MotionInputs& inputs, MotionEngine& engine) {
+Outcome writeMotions(const MotionOptions& options, MotionInputs& inputs, MotionEngine& engine) {
     const Result<std::unique_ptr<MotionOutput>> output = MotionOutput::create(options, inputs);
     VOXTACT_TRY(output);
     const auto [first, end] = rowRange(options, inputs);
@@ -131,7 +133,7 @@ Outcome writeMotions(const MotionOptions& options, const MotionInputs& inputs, M
                                     : "'" + options.output.path.string() + "' is not written");
     }
     VOXTACT_TRY((*output)->finish(checking.milliseconds()));
-    std::vector<std::string> notes;
+    std::vector<std::string> notes = checking.notes();
     (*output)->ends().addTo(notes);
     for (const std::string& note : notes) {
         printNote(note);
@@ -142,11 +144,14 @@ Outcome writeMotions(const MotionOptions& options, const MotionInputs& inputs, M
     return {};
 }
 
-Result<MotionEngine> makeEngine(const MotionOptions& options) {
+Result<MotionEngine> makeEngine(const MotionOptions& options, MotionInputs& inputs) {
     std::vector<MeshData> meshes;
     for (const std::string& source : options.meshes.sources) {
         Result<MeshData> data = loadMesh(source, options.meshes);
         VOXTACT_TRY(data);
+        const Result<MeshFacts> facts = checkMesh(data->view());
+        VOXTACT_TRY(facts);
+        inputs.bounds.push_back(facts->bounds);
         meshes.push_back(std::move(*data));
     }
     return MotionEngine::create({.interpolation = interpolationOf(options), .resolution = options.resolution},
@@ -161,9 +166,9 @@ Outcome runMotion(MotionOptions options) {
         checkShard(options.shard, options.output, {{options.timing, "--timing"}, {options.summary, "--summary"}}));
     VOXTACT_TRY(checkPaths(options));
     const InterruptGuard guard;
-    const Result<MotionInputs> inputs = readInputs(options);
+    Result<MotionInputs> inputs = readInputs(options);
     VOXTACT_TRY(inputs);
-    Result<MotionEngine> engine = makeEngine(options);
+    Result<MotionEngine> engine = makeEngine(options, *inputs);
     VOXTACT_TRY(engine);
     return writeMotions(options, *inputs, *engine);
 }
@@ -173,8 +178,11 @@ Outcome runMotion(MotionOptions options) {
 Result<void> SegmentChecker::setVolume(std::uint32_t number) {
     engine_.dropVolume();
     const std::string& source = options_.volumes[number];
-    const Result<VolumeData> data = loadVolume(source);
+    const Result<VolumeData> data = loadVolume(source, {.resample = options_.resample});
     VOXTACT_TRY(data);
+    grid_ = data->grid;
+    inputs_.isResampled.resize(options_.volumes.size());
+    inputs_.isResampled[number] = io::wasResampled(*data) ? 1 : 0;
     const Result<ValueRange> values = checkVolume(data->view());
     VOXTACT_TRY(values);
     const TransferFunctionOptions& how = options_.transferFunction;
@@ -204,6 +212,7 @@ Result<void> SegmentChecker::check(std::uint32_t mesh, std::span<const Mat4> pos
     const Result<std::vector<bool>> halfTurns = checkRigid(poses, firstPose);
     VOXTACT_TRY(halfTurns);
     std::vector<MotionRow> rows;
+    bool isNear = false;
     for (std::size_t first = 0; first + 1 < poses.size() && !interrupted();) {
         const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(pace_.size(), poses.size() - 1 - first));
         const Result<MotionAnswer> answer =
@@ -219,11 +228,23 @@ Result<void> SegmentChecker::check(std::uint32_t mesh, std::span<const Mat4> pos
             const bool halfTurn = (*halfTurns)[first + motion.pose];
             motion.pose += static_cast<std::uint32_t>(firstPose + first);
             rows.push_back({mesh, volume_, motion, halfTurn});
+            isNear = isNear || motion.touch || motion.possible;
         }
         VOXTACT_TRY(visit(rows));
         first += count;
     }
+    if (!isNear && !interrupted()) {
+        noteFar(mesh, poses);
+    }
     return {};
+}
+
+void SegmentChecker::noteFar(std::uint32_t mesh, std::span<const Mat4> poses) {
+    const ReadMesh read{options_.meshes.sources[mesh], options_.meshes, inputs_.bounds[mesh], poses,
+                        options_.view.posesSpace};
+    if (placementOf(read, grid_).distance > 0) {
+        notes_.push_back(farNote(read, options_.volumes[volume_], grid_, poses.size()));
+    }
 }
 
 Command addMotion(CLI::App& program) {
@@ -231,6 +252,7 @@ Command addMotion(CLI::App& program) {
     CLI::App* parser = program.add_subcommand("motion", "does it touch on the way from pose to pose?");
     parser->footer(kMotionFooter);
     addVolumeOption(*parser, options->volumes);
+    addResampleOption(*parser, options->resample);
     addMeshOptions(*parser, options->meshes);
     addPosesOptions(*parser, options->view);
     parser->get_option("--poses")->required();

@@ -34,7 +34,9 @@ MotionOutput::MotionOutput(const MotionOptions& options, const MotionInputs& inp
 Result<void> MotionOutput::add(std::span<const MotionRow> rows) {
     rows_ += rows.size();
     ends_.add(rows);
-    writer_.add(MotionTable{options_.meshes.sources, options_.volumes, inputs_.labels, inputs_.labelNames, rows, facts_}
+    const std::vector<char>* const resampled = options_.resample ? &inputs_.isResampled : nullptr;
+    writer_.add(MotionTable{options_.meshes.sources, options_.volumes, inputs_.labels, inputs_.labelNames, resampled,
+                            rows, facts_}
                     .table());
     return pass();
 }

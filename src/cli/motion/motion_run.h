@@ -31,11 +31,14 @@ struct MotionOptions {
     bool summary = false;
     bool timing = false;
     bool progress = true;
+    bool resample = false;
     OutputOptions output;
     Shard shard;
 };
 
 struct MotionInputs {
+    std::vector<Box> bounds;       ///< of the meshes, object space
+    std::vector<char> isResampled; ///< of each volume, once it has been read
     std::vector<ControlPoint> points;
     std::vector<Mat4> poses;
     std::optional<LabelData> labels;
@@ -46,7 +49,7 @@ struct MotionInputs {
 class SegmentChecker {
   public:
     /// All must outlive it.
-    SegmentChecker(const MotionOptions& options, const MotionInputs& inputs, MotionEngine& engine)
+    SegmentChecker(const MotionOptions& options, MotionInputs& inputs, MotionEngine& engine)
         : options_(options), inputs_(inputs), engine_(engine) {}
 
     /// Reads a volume with its transfer function, for the following queries.
@@ -59,6 +62,8 @@ class SegmentChecker {
                                      const std::function<Result<void>(std::span<const MotionRow>)>& visit);
     /// Returns the duration so far.
     [[nodiscard]] double milliseconds() const noexcept { return milliseconds_; }
+    /// Of meshes that come near a volume at no pose.
+    [[nodiscard]] const std::vector<std::string>& notes() const noexcept { return notes_; }
 
   private:
     /// More segments than are checked before their rows are written.
@@ -66,11 +71,14 @@ class SegmentChecker {
 
     /// Returns for each segment whether it is half a turn.
     [[nodiscard]] Result<std::vector<bool>> checkRigid(std::span<const Mat4> poses, std::uint64_t firstPose) const;
+    void noteFar(std::uint32_t mesh, std::span<const Mat4> poses);
 
     const MotionOptions& options_;
-    const MotionInputs& inputs_;
+    MotionInputs& inputs_;
     MotionEngine& engine_;
     std::uint32_t volume_ = 0; ///< its number
+    Grid grid_;                ///< its own
+    std::vector<std::string> notes_;
     BatchPace pace_{kMostAtOnce, false};
     double milliseconds_ = 0;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/motion/motion_table.h"
 
+#include "cli/output/output.h"
 #include "cli/output/text_for_messages.h"
 
 #include <array>
@@ -77,8 +78,14 @@ io::Table MotionTable::table() const {
     if (labels && !labelNames.empty()) {
         out.columns.emplace_back("label_name");
     }
+    if (isResampled != nullptr) {
+        out.columns.emplace_back(kResampledColumn);
+    }
     out.rows = rows.size();
-    out.cell = [this](std::size_t row, std::size_t column) { return cellOf(*this, rows[row], column); };
+    out.cell = [this, columns = out.columns.size()](std::size_t row, std::size_t column) {
+        return isResampled != nullptr && column + 1 == columns ? resampledCell((*isResampled)[rows[row].volume] != 0)
+                                                               : cellOf(*this, rows[row], column);
+    };
     out.facts = facts;
     return out;
 }

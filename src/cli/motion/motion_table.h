@@ -27,6 +27,7 @@ struct MotionTable {
     const std::vector<std::string>& volumes;
     const std::optional<LabelData>& labels;
     const std::map<std::int32_t, std::string>& labelNames;
+    const std::vector<char>* isResampled; ///< of each volume; null: no column
     std::span<const MotionRow> rows;
     const io::NamedCells& facts; ///< JSON members before the rows
 

@@ -66,20 +66,21 @@ Result<io::VolumeReadOptions> imageChoice(const std::string& source, const Named
     return options;
 }
 
-Result<VolumeData> readImage(const std::string& source, const io::ReadProgress& progress) {
+Result<VolumeData> readImage(const std::string& source, const io::VolumeReadOptions& how) {
     const NamedImage image = namedImage(source);
     Result<io::VolumeReadOptions> options = imageChoice(source, image);
     VOXTACT_TRY(options);
-    options->progress = progress;
+    options->progress = how.progress;
+    options->resample = how.resample;
     return io::readVolume(image.path, *options);
 }
 
 } // namespace
 
-Result<VolumeData> loadVolume(const std::string& source, const io::ReadProgress& progress) {
+Result<VolumeData> loadVolume(const std::string& source, const io::VolumeReadOptions& how) {
     const bool builtin = source.starts_with(kBuiltin);
     Result<VolumeData> volume =
-        builtin ? makeBuiltinVolume(std::string_view(source).substr(kBuiltin.size())) : readImage(source, progress);
+        builtin ? makeBuiltinVolume(std::string_view(source).substr(kBuiltin.size())) : readImage(source, how);
     if (!volume.ok()) {
         return sourceFault("--volume", source, volume.error());
     }
@@ -183,8 +184,8 @@ std::vector<ControlPoint> defaultRamp(const ValueRange& domain) {
     return {{domain.lo, 0}, {domain.hi, 1}};
 }
 
-Result<Grid> gridOfVolume(const std::string& source) {
-    const Result<VolumeData> volume = loadVolume(source);
+Result<Grid> gridOfVolume(const std::string& source, bool resample) {
+    const Result<VolumeData> volume = loadVolume(source, {.resample = resample});
     VOXTACT_TRY(volume);
     return volume->grid;
 }
@@ -256,10 +257,10 @@ Result<NamedLabels> loadNamedLabels(const std::filesystem::path& labels, const s
     return NamedLabels{std::move(map->labels), std::move(*read)};
 }
 
-Result<std::vector<Mat4>> readStandardPoses() {
+Result<std::vector<Mat4>> readStandardPoses(io::PoseFormat format) {
     std::vector<Mat4> poses;
     std::ios::sync_with_stdio(false);
-    Result<io::PoseReader> reader = io::PoseReader::over(std::cin, "standard input");
+    Result<io::PoseReader> reader = io::PoseReader::over(std::cin, "standard input", format);
     const Result<bool> read =
         reader.ok() ? reader->read(std::numeric_limits<std::size_t>::max(), poses) : Result<bool>(reader.error());
     return read.ok() ? Result<std::vector<Mat4>>(std::move(poses)) : read.error();
@@ -278,17 +279,18 @@ Mat4 lpsFrom(const std::string& space, const Mat4& pose) {
     return out;
 }
 
-Result<std::vector<Mat4>> loadPoses(const std::filesystem::path& path, const std::string& space) {
-    if (path.empty()) {
+Result<std::vector<Mat4>> loadPoses(const ViewOptions& options) {
+    if (options.poses.empty()) {
         return std::vector<Mat4>{identity()};
     }
     // Read as often as it has to be: it is all kept.
-    Result<std::vector<Mat4>> poses = path == "-" ? readStandardPoses() : io::readPoses(path);
+    Result<std::vector<Mat4>> poses = options.poses == "-" ? readStandardPoses(options.posesFormat)
+                                                           : io::readPoses(options.poses, options.posesFormat);
     if (!poses.ok()) {
         return fileFault(poses.error());
     }
     for (Mat4& pose : *poses) {
-        pose = lpsFrom(space, pose);
+        pose = lpsFrom(options.posesSpace, pose);
     }
     return poses;
 }

@@ -15,7 +15,8 @@
 namespace voxtact::app {
 
 /// A path, of a file or folder with several images one as namedImage() says, or `builtin:NAME`.
-[[nodiscard]] Result<VolumeData> loadVolume(const std::string& source, const io::ReadProgress& progress = {});
+/// Which image is read is not of the options.
+[[nodiscard]] Result<VolumeData> loadVolume(const std::string& source, const io::VolumeReadOptions& how = {});
 /// Refuses a volume that is not there. Volumes are read one at a time: this is known before the first row is written.
 [[nodiscard]] Result<void> checkVolumesAreThere(const std::vector<std::string>& sources);
 [[nodiscard]] Result<MeshData> loadMesh(const std::string& source, const MeshOptions& options);
@@ -35,7 +36,7 @@ namespace voxtact::app {
 /// Gives the grid of the image that contours are filled on; called only for such a label map.
 using GridSource = std::function<Result<Grid>()>;
 /// The grid of a volume, read for it alone.
-[[nodiscard]] Result<Grid> gridOfVolume(const std::string& source);
+[[nodiscard]] Result<Grid> gridOfVolume(const std::string& source, bool resample);
 
 /// A label map, named as a volume is. No `builtin:`.
 [[nodiscard]] Result<io::LabelFile> loadLabels(const std::filesystem::path& path, const GridSource& grid);
@@ -54,9 +55,9 @@ struct NamedLabels {
                                                   const std::filesystem::path& names, const GridSource& grid);
 
 /// All that standard input holds.
-[[nodiscard]] Result<std::vector<Mat4>> readStandardPoses();
+[[nodiscard]] Result<std::vector<Mat4>> readStandardPoses(io::PoseFormat format);
 /// The identity when there is no path; "-" is standard input.
-[[nodiscard]] Result<std::vector<Mat4>> loadPoses(const std::filesystem::path& path, const std::string& space = "lps");
+[[nodiscard]] Result<std::vector<Mat4>> loadPoses(const ViewOptions& options);
 /// A point or pose from `space` to LPS: "ras" turns x and y round; a pose takes and gives such points.
 [[nodiscard]] Vec3 lpsFrom(const std::string& space, const Vec3& point);
 [[nodiscard]] Mat4 lpsFrom(const std::string& space, const Mat4& pose);

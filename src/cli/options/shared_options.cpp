@@ -180,6 +180,12 @@ void addVolumeOption(CLI::App& parser, std::vector<std::string>& sources) {
         ->required();
 }
 
+void addResampleOption(CLI::App& parser, bool& resample) {
+    parser.add_flag("--resample", resample,
+                    "interpolate DICOM slices that are unevenly spaced or sheared instead of refusing them");
+    setRare(parser, "--resample");
+}
+
 void addMeshOptions(CLI::App& parser, MeshOptions& options, bool required) {
     parser.add_option("--mesh", options.sources, "mesh: STL, OBJ, PLY, OFF, glTF, builtin:NAME; repeatable")
         ->type_name("PATH")
@@ -333,7 +339,15 @@ void addSpace(CLI::App& parser, const char* option, std::string& space, const st
 void addPosesOptions(CLI::App& parser, ViewOptions& options) {
     addPath(parser, "--poses", options.poses, "4x4 matrices, 16 numbers per line; -: standard input");
     addSpace(parser, "--poses-space", options.posesSpace, "space of the poses: lps or ras");
+    addParsed(
+        parser, "--poses-format",
+        [&options](const std::string& name) {
+            requireName("--poses-format", name, namesOf(io::poseFormats()));
+            options.posesFormat = *io::poseFormatFromName(name);
+        },
+        "matrix, or 7 numbers a line, t in mm, unit quaternion: t-xyzw, t-wxyz, xyzw-t, wxyz-t", "F", "matrix");
     setRare(parser, "--poses-space");
+    setRare(parser, "--poses-format");
 }
 
 void addCameraOptions(CLI::App& parser, ViewOptions& options) {

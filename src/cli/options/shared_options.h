@@ -5,6 +5,7 @@
 #include "cli/output/output.h"
 #include "core/facts/facts.h"
 #include "voxtact/data.h"
+#include "voxtact/io.h"
 #include "voxtact/methods.h"
 
 #include <vulkan/vulkan_core.h>
@@ -48,9 +49,10 @@ struct TransferFunctionOptions {
 };
 
 struct ViewOptions {
-    std::filesystem::path poses;
+    std::filesystem::path poses{};
     std::string posesSpace = "lps";
-    std::filesystem::path camera;
+    io::PoseFormat posesFormat = io::PoseFormat::Matrix;
+    std::filesystem::path camera{};
     VkExtent2D size{512, 512};
     bool sizeGiven = false;
 };
@@ -104,6 +106,8 @@ void setRare(CLI::App& parser, const char* option);
 /// A path, as an option, with that check.
 void addPath(CLI::App& parser, const char* option, std::filesystem::path& path, const std::string& help);
 void addVolumeOption(CLI::App& parser, std::vector<std::string>& sources);
+/// --resample: VolumeReadOptions::resample.
+void addResampleOption(CLI::App& parser, bool& resample);
 void addMeshOptions(CLI::App& parser, MeshOptions& options, bool required = true);
 void addTransferFunctionOptions(CLI::App& parser, TransferFunctionOptions& options);
 /// --tf-domain and --tf-size: of the table that pixel projections and pictures sample.

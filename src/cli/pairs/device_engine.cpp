@@ -42,6 +42,7 @@ struct DeviceVolume {
     OpaqueVoxels opaque;
     Grid grid;
     std::uint64_t bytes = 0;
+    bool isResampled = false;
 };
 
 /// Objects that are uploaded once.
@@ -69,6 +70,7 @@ class DeviceEngine : public PairEngine {
     }
     [[nodiscard]] Result<Grid> use(std::uint32_t job) override;
     [[nodiscard]] OpaqueVoxels opaque() const override { return volume_->opaque; }
+    [[nodiscard]] bool isResampled() const override { return volume_->isResampled; }
     [[nodiscard]] Result<void> answer(const Window& window, WindowRows& rows,
                                       const std::function<bool()>& stop) override;
 
@@ -88,7 +90,7 @@ class DeviceEngine : public PairEngine {
 
 Result<DeviceVolume> DeviceEngine::make(std::uint32_t number) const {
     const std::string& source = options_.jobs.volumes[number];
-    const Result<VolumeData> data = loadVolume(source);
+    const Result<VolumeData> data = loadVolume(source, {.resample = options_.resample});
     VOXTACT_TRY(data);
     const QueueAccess queue = session_.device.queueAccess();
     Result<Volume> volume = Volume::upload(session_.context, queue, data->view(),
@@ -101,8 +103,8 @@ Result<DeviceVolume> DeviceEngine::make(std::uint32_t number) const {
     if (!function.ok()) {
         return blameTable(function.error());
     }
-    return DeviceVolume{std::move(*volume), std::move(*function), settings.view,
-                        settings.opaque,    data->grid,           data->voxels.size()};
+    return DeviceVolume{std::move(*volume), std::move(*function), settings.view,          settings.opaque,
+                        data->grid,         data->voxels.size(),  io::wasResampled(*data)};
 }
 
 Result<Grid> DeviceEngine::use(std::uint32_t job) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/pairs/fit_notes.h"
 
+#include "cli/options/placement.h"
 #include "cli/output/size_note.h"
 #include "core/base/text.h"
 #include "voxtact/data.h"
@@ -13,6 +14,8 @@ namespace {
 
 /// Longer lists say no more.
 constexpr std::size_t kMostNotes = 5;
+/// Enough to find out in which space most of them are near.
+constexpr std::size_t kSomePoses = 16;
 
 void addSome(const std::vector<std::string>& some, std::vector<std::string>& notes) {
     for (std::size_t i = 0; i < some.size() && i < kMostNotes; ++i) {
@@ -34,7 +37,12 @@ void FitNotes::look(const Window& window, const Grid& grid, const OpaqueVoxels& 
         if (poses_[item.job] == 0) {
             const Box& object = inputs_.bounds[options_.jobs.jobs[item.job].mesh];
             sizes_[item.job] = sizeNote(object, item.poses.front(), grid);
-            first_[item.job] = {item.poses.front(), opaque};
+            const std::size_t step = (item.poses.size() + kSomePoses - 1) / kSomePoses;
+            First& first = first_[item.job];
+            first = {{}, grid, opaque};
+            for (std::size_t pose = 0; pose < item.poses.size(); pose += step) {
+                first.poses.push_back(item.poses[pose]);
+            }
         }
         poses_[item.job] += item.poses.size();
     }
@@ -57,21 +65,21 @@ void FitNotes::addTo(std::vector<std::string>& notes) const {
         const PairJobs& jobs = options_.jobs;
         const std::string& mesh = jobs.meshes[jobs.jobs[i].mesh];
         const std::string& volume = jobs.volumes[jobs.jobs[i].volume];
-        if (!sizes_[i].empty()) {
+        const bool isFar = poses_[i] > 0 && near_[i] == 0 && options_.method.boundary != Boundary::Clamp;
+        if (!sizes_[i].empty() && !isFar) {
             sizes.push_back(mesh + " against " + volume + ": the mesh " + sizes_[i]);
         }
         const MeshView shape = inputs_.meshes[jobs.jobs[i].mesh].view();
         if (const std::optional<Vec3> inside =
-                first_[i].opaque ? enclosedVoxel(shape, first_[i].world_from_object, *first_[i].opaque)
-                                 : std::nullopt) {
+                first_[i].opaque ? enclosedVoxel(shape, first_[i].poses.front(), *first_[i].opaque) : std::nullopt) {
             enclosing.push_back(mesh + " encloses an opaque region of " + volume + ", at " + number((*inside)[0]) +
                                 ", " + number((*inside)[1]) + ", " + number((*inside)[2]) +
                                 ", which its surface does not touch");
         }
-        if (poses_[i] > 0 && near_[i] == 0 && options_.method.boundary != Boundary::Clamp) {
-            places.push_back(mesh + " does not come near " + volume +
-                             (poses_[i] == 1 ? " at its pose" : " at any of " + std::to_string(poses_[i]) + " poses") +
-                             "; are --mesh-space, --mesh-scale and the poses (world mm, LPS) right?");
+        if (isFar) {
+            places.push_back(farNote({mesh, options_.meshes, inputs_.bounds[jobs.jobs[i].mesh], first_[i].poses,
+                                      options_.view.poses.empty() ? "" : options_.view.posesSpace},
+                                     volume, first_[i].grid, poses_[i]));
         }
     }
     addSome(sizes, notes);

@@ -30,10 +30,11 @@ class FitNotes {
     std::vector<std::uint64_t> poses_;
     std::vector<std::string> sizes_; ///< the note of each job; empty: none
     struct First {
-        Mat4 world_from_object{};
-        OpaqueVoxels opaque; ///< null: something touches at one of the poses
+        std::vector<Mat4> poses; ///< some of the first window, its first one at first
+        Grid grid;               ///< of the volume
+        OpaqueVoxels opaque;     ///< null: something touches at one of the poses
     };
-    std::vector<First> first_; ///< pose of each job
+    std::vector<First> first_; ///< of each job
 };
 
 } // namespace voxtact::app

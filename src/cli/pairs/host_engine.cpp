@@ -20,6 +20,8 @@ struct HostVolume {
     View view;
     OpaqueVoxels opaque;
     std::uint64_t bytes = 0;
+    std::optional<LabelData> labels; ///< instead of those of all volumes
+    bool isResampled = false;
 };
 
 class HostPairs : public PairEngine {
@@ -43,6 +45,7 @@ class HostPairs : public PairEngine {
     }
     [[nodiscard]] Result<Grid> use(std::uint32_t job) override;
     [[nodiscard]] OpaqueVoxels opaque() const override { return volume_->opaque; }
+    [[nodiscard]] bool isResampled() const override { return volume_->isResampled; }
     [[nodiscard]] Result<void> answer(const Window& window, WindowRows& rows,
                                       const std::function<bool()>& stop) override;
 
@@ -65,9 +68,10 @@ class HostPairs : public PairEngine {
 };
 
 Result<HostVolume> HostPairs::make(std::uint32_t number) const {
-    const Result<VolumeData> data = loadVolume(options_.jobs.volumes[number]);
+    const Result<VolumeData> data = loadVolume(options_.jobs.volumes[number], {.resample = options_.resample});
     VOXTACT_TRY(data);
-    VOXTACT_TRY(checkMeasuredGrid(options_, inputs_, data->grid));
+    Result<std::optional<LabelData>> labels = measuredLabels(options_, inputs_, data->grid);
+    VOXTACT_TRY(labels);
     const Result<ValueRange> values = checkVolume(data->view());
     VOXTACT_TRY(values);
     Result<cpu::Volume> volume = cpu::Volume::create(data->view());
@@ -76,7 +80,8 @@ Result<HostVolume> HostPairs::make(std::uint32_t number) const {
     Result<cpu::TransferFunction> function =
         cpu::TransferFunction::create({settings.points, settings.domain, settings.tableSize});
     VOXTACT_TRY(function);
-    return HostVolume{std::move(*volume), std::move(*function), settings.view, settings.opaque, data->voxels.size()};
+    return HostVolume{std::move(*volume),  std::move(*function), settings.view,          settings.opaque,
+                      data->voxels.size(), std::move(*labels),   io::wasResampled(*data)};
 }
 
 Result<Grid> HostPairs::use(std::uint32_t job) {
@@ -212,10 +217,11 @@ Result<double> HostPairs::addOverlaps(const cpu::Batch& batch, std::span<const P
 }
 
 Result<void> HostPairs::answer(const Window& window, WindowRows& rows, const std::function<bool()>& stop) {
+    const LabelData* const labels = volume_->labels ? &*volume_->labels : inputs_.labels ? &*inputs_.labels : nullptr;
     std::vector<cpu::BatchItem> all;
     for (const WindowItem& item : window.items) {
         all.push_back({&meshes_[options_.jobs.jobs[item.job].mesh], &volume_->volume, &volume_->transferFunction,
-                       item.selected, inputs_.labels ? &*inputs_.labels : nullptr});
+                       item.selected, labels});
     }
     const auto add = options_.question == Question::Touch      ? &HostPairs::addTouches
                      : options_.question == Question::Distance ? &HostPairs::addDistances

@@ -49,6 +49,7 @@ PairAsker::PairAsker(const PairOptions& options, PairInputs& inputs, PairEngine&
 Result<void> PairAsker::answer(const PairRange& range, PairOutput& output, const std::function<void()>& progress) {
     const Result<Grid> grid = engine_.use(range.begin);
     VOXTACT_TRY(grid);
+    inputs_.isResampled[options_.jobs.jobs[range.begin].volume] = engine_.isResampled() ? 1 : 0;
     PairWindows windows(options_, inputs_, range);
     Window window;
     while (!interrupted()) {

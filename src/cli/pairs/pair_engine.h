@@ -27,6 +27,7 @@ class PairEngine {
     [[nodiscard]] virtual Result<Grid> use(std::uint32_t job) = 0;
     /// Opaque voxels of the current volume.
     [[nodiscard]] virtual OpaqueVoxels opaque() const = 0;
+    [[nodiscard]] virtual bool isResampled() const = 0;
     /// Answers for the selected poses of the window, in order. Ends early, and well, once `stop` says so.
     [[nodiscard]] virtual Result<void> answer(const Window& window, WindowRows& rows,
                                               const std::function<bool()>& stop) = 0;

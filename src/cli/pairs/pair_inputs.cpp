@@ -42,7 +42,7 @@ void noteAbsent(const PairOptions& options, const std::vector<LabelWord>& absent
 }
 
 /// A number need not be a label of a voxel, a name must be. "all": all labels but 0.
-Result<std::vector<std::int32_t>> measuredLabels(const PairOptions& options, const NamedLabels& labels) {
+Result<std::vector<std::int32_t>> chosenLabels(const PairOptions& options, const NamedLabels& labels) {
     std::vector<std::int32_t> measured;
     std::vector<LabelWord> absent;
     const auto add = [&measured](std::int32_t label) {
@@ -75,11 +75,12 @@ Result<void> readLabels(const PairOptions& options, PairInputs& inputs) {
     if (options.labels.path.empty()) {
         return {};
     }
-    Result<NamedLabels> named = loadNamedLabels(options.labels.path, options.labels.names,
-                                                [&] { return gridOfVolume(options.jobs.volumes.front()); });
+    Result<NamedLabels> named = loadNamedLabels(options.labels.path, options.labels.names, [&] {
+        return gridOfVolume(options.jobs.volumes.front(), options.resample);
+    });
     VOXTACT_TRY(named);
     if (options.byLabel()) {
-        Result<std::vector<std::int32_t>> measured = measuredLabels(options, *named);
+        Result<std::vector<std::int32_t>> measured = chosenLabels(options, *named);
         VOXTACT_TRY(measured);
         inputs.measured = std::move(*measured);
     }
@@ -127,8 +128,7 @@ Result<PairInputs> readPairInputs(const PairOptions& options) {
     Result<std::vector<ControlPoint>> points = loadControlPoints(options.transferFunction);
     VOXTACT_TRY(points);
     inputs.points = std::move(*points);
-    Result<PoseSource> poses = PoseSource::open(options.view.poses, options.hasSeveralJobs() || options.shard.isPart(),
-                                                options.view.posesSpace);
+    Result<PoseSource> poses = PoseSource::open(options.view, options.hasSeveralJobs() || options.shard.isPart());
     VOXTACT_TRY(poses);
     inputs.poses = std::move(*poses);
     if (!options.view.camera.empty()) {
@@ -148,13 +148,19 @@ Result<PairInputs> readPairInputs(const PairOptions& options) {
         inputs.meshes.push_back(std::move(*mesh));
     }
     VOXTACT_TRY(readLabels(options, inputs));
+    inputs.isResampled.resize(options.jobs.volumes.size());
     return inputs;
 }
 
-Result<void> checkMeasuredGrid(const PairOptions& options, const PairInputs& inputs, const Grid& volume) {
-    return options.byLabel()
-               ? checkLabelGrid(inputs.labels->grid, volume, "--labels: " + forMessage(options.labels.path.string()))
-               : Result<void>();
+Result<std::optional<LabelData>> measuredLabels(const PairOptions& options, const PairInputs& inputs,
+                                                const Grid& volume) {
+    const std::string which = "--labels: " + forMessage(options.labels.path.string());
+    if (!options.byLabel() || checkLabelGrid(inputs.labels->grid, volume, which).ok()) {
+        return std::optional<LabelData>();
+    }
+    Result<LabelData> labels = labelsOnGrid(*inputs.labels, volume, which);
+    VOXTACT_TRY(labels);
+    return std::optional(std::move(*labels));
 }
 
 VolumeSettings settingsFor(const PairOptions& options, const PairInputs& inputs, std::uint32_t volume,

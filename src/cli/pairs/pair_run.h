@@ -70,6 +70,7 @@ struct PairOptions {
     ExtraOptions extra; ///< of `count`
     MeasureOptions measure;
     bool progress = true;
+    bool resample = false;
     bool timing = false;
     bool stats = false;
     bool summary = false;
@@ -95,6 +96,7 @@ struct PairInputs {
     std::optional<LabelData> labels;
     std::map<std::int32_t, std::string> labelNames;
     std::vector<std::int32_t> measured; ///< numbers of MeasureOptions::labels; each once
+    std::vector<char> isResampled;      ///< of each volume, once it has been read
 
     /// Number of pairs of all jobs; empty while standard input is open.
     [[nodiscard]] std::optional<std::uint64_t> pairs(const PairJobs& jobs) const;
@@ -155,8 +157,10 @@ struct KeptClosest {
 /// Reads meshes, poses, camera, control points and labels; volumes are read one at a time, later.
 [[nodiscard]] Result<PairInputs> readPairInputs(const PairOptions& options);
 
-/// Refuses a volume on another grid than the label map where a row is a label.
-[[nodiscard]] Result<void> checkMeasuredGrid(const PairOptions& options, const PairInputs& inputs, const Grid& volume);
+/// The label map on the grid of a volume, where a row is a label and the map is on a part of that grid; none where the
+/// map serves as it is. Refuses other grids where a row is a label.
+[[nodiscard]] Result<std::optional<LabelData>> measuredLabels(const PairOptions& options, const PairInputs& inputs,
+                                                              const Grid& volume);
 
 /// Sampling of a volume.
 struct VolumeSettings {

@@ -48,6 +48,11 @@ PairColumns::PairColumns(const PairOptions& options, const PairInputs& inputs) {
         columns_.push_back({"touch", [](const Line& line) { return verdictOf(line.row->timed.answer); }});
         options.question == Question::Touch ? addTouch(inputs) : addCount(options, inputs);
     }
+    if (options.resample) {
+        columns_.push_back({kResampledColumn, [&](const Line& line) {
+                                return resampledCell(inputs.isResampled[jobs.jobs[line.row->job].volume] != 0);
+                            }});
+    }
     if (options.timing) {
         columns_.push_back({"gpu_ms", [](const Line& line) {
                                 const std::optional<double>& gpu = line.row->timed.gpuMilliseconds;

@@ -27,10 +27,17 @@ Error fileFault(Error error) {
 
 } // namespace
 
-Result<PoseSource> PoseSource::open(const std::filesystem::path& path, bool again, const std::string& space) {
+Result<io::PoseReader> PoseSource::reader() const {
+    return path_ == "-" ? io::PoseReader::over(std::cin, kStandardInput, format_)
+                        : io::PoseReader::open(path_, format_);
+}
+
+Result<PoseSource> PoseSource::open(const ViewOptions& how, bool again) {
+    const std::filesystem::path& path = how.poses;
     PoseSource source;
     source.path_ = path;
-    source.space_ = space;
+    source.space_ = how.posesSpace;
+    source.format_ = how.posesFormat;
     if (path.empty()) {
         source.kept_ = {identity()};
         source.isKept_ = true;
@@ -49,8 +56,7 @@ Result<PoseSource> PoseSource::open(const std::filesystem::path& path, bool agai
 
 Result<void> PoseSource::takeStock() {
     const bool standardInput = path_ == "-";
-    Result<io::PoseReader> reader =
-        standardInput ? io::PoseReader::over(std::cin, kStandardInput) : io::PoseReader::open(path_);
+    Result<io::PoseReader> reader = this->reader();
     VOXTACT_TRY(reader);
     std::vector<Mat4> part;
     std::uint64_t count = 0;
@@ -78,8 +84,7 @@ Result<void> PoseSource::begin(std::uint64_t from) {
     }
     if (!reader_ || from == 0 || from < given_) {
         given_ = 0;
-        Result<io::PoseReader> reader =
-            path_ == "-" ? io::PoseReader::over(std::cin, kStandardInput) : io::PoseReader::open(path_);
+        Result<io::PoseReader> reader = this->reader();
         if (!reader.ok()) {
             return fileFault(reader.error());
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "cli/options/shared_options.h"
 #include "voxtact/io.h"
 
 #include <cstdint>
@@ -15,11 +16,10 @@ namespace voxtact::app {
 /// their number.
 class PoseSource {
   public:
-    /// Opens poses. Without a path: the identity. "-": standard input, read on demand, or at once if it is needed
-    /// `again`. A file is read completely first, so that its errors precede all answers. `space`: of the file; poses
-    /// are returned in LPS.
-    [[nodiscard]] static Result<PoseSource> open(const std::filesystem::path& path, bool again,
-                                                 const std::string& space = "lps");
+    /// No path: the identity. "-": standard input, which is read as it is asked for, or all at once where it is needed
+    /// `again`. A file is read once at once, so that what is wrong with it is known before there are answers. Poses
+    /// come out in LPS.
+    [[nodiscard]] static Result<PoseSource> open(const ViewOptions& how, bool again);
 
     /// Returns the number of poses, if known.
     [[nodiscard]] std::optional<std::uint64_t> count() const noexcept { return count_; }
@@ -32,9 +32,11 @@ class PoseSource {
   private:
     PoseSource() = default;
     [[nodiscard]] Result<void> takeStock();
+    [[nodiscard]] Result<io::PoseReader> reader() const;
 
     std::filesystem::path path_;
     std::string space_;
+    io::PoseFormat format_ = io::PoseFormat::Matrix;
     std::optional<std::uint64_t> count_;
     std::vector<Mat4> kept_; ///< all poses, if few
     bool isKept_ = false;

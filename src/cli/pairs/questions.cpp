@@ -74,6 +74,7 @@ Subcommand begin(CLI::App& program, Question question, const char* help, const c
     CLI::App* parser = program.add_subcommand(toString(question), help);
     parser->footer(footer);
     addVolumeOption(*parser, options->volumes);
+    addResampleOption(*parser, options->resample);
     addMeshOptions(*parser, options->meshes);
     addPosesOptions(*parser, options->view);
     addTransferFunctionOptions(*parser, options->transferFunction);

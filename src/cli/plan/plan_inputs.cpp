@@ -32,9 +32,10 @@ Result<cpu::TransferFunction> functionOf(const TransferFunctionOptions& how, con
 }
 
 /// `kept`: where the image itself goes; null: it is not needed.
-Result<PlanVolume> readVolumeOf(const std::string& source, const TransferFunctionOptions& how, std::string_view who,
-                                std::vector<std::string>& notes, std::optional<VolumeData>* kept = nullptr) {
-    Result<VolumeData> data = loadVolume(source);
+Result<PlanVolume> readVolumeOf(const std::string& source, bool resample, const TransferFunctionOptions& how,
+                                std::string_view who, std::vector<std::string>& notes,
+                                std::optional<VolumeData>* kept = nullptr) {
+    Result<VolumeData> data = loadVolume(source, {.resample = resample});
     VOXTACT_TRY(data);
     const Result<ValueRange> values = checkVolume(data->view());
     VOXTACT_TRY(values);
@@ -44,10 +45,11 @@ Result<PlanVolume> readVolumeOf(const std::string& source, const TransferFunctio
         functionOf(how, tableDomain(how, data->type, *values), *values, source, who, notes);
     VOXTACT_TRY(function);
     const ScalarType type = data->type;
+    const bool isResampled = io::wasResampled(*data);
     if (kept != nullptr) {
         *kept = std::move(*data);
     }
-    return PlanVolume{std::move(*volume), std::move(*function), type, *values};
+    return PlanVolume{std::move(*volume), std::move(*function), type, *values, isResampled};
 }
 
 constexpr std::string_view kNeedle = "builtin:needle";
@@ -97,7 +99,7 @@ Result<void> readAvoided(const PlanOptions& options, const TransferFunctionOptio
         inputs.obstacles.push_back({&head.volume, &*inputs.avoidedInHead, how.threshold, nullptr, {}, kAvoidOpacity});
         return {};
     }
-    Result<PlanVolume> avoided = readVolumeOf(options.avoidVolume, how, kAvoidOpacity, inputs.notes);
+    Result<PlanVolume> avoided = readVolumeOf(options.avoidVolume, options.resample, how, kAvoidOpacity, inputs.notes);
     VOXTACT_TRY(avoided);
     inputs.avoided = std::move(*avoided);
     inputs.obstacles.push_back(
@@ -116,8 +118,10 @@ Result<void> readObstacles(const PlanOptions& options, PlanInputs& inputs) {
         return badArgument("--avoid-volume: --avoid-opacity must say what of it is not to be touched");
     }
     if (!options.avoid.empty()) {
-        VOXTACT_TRY(checkLabelGrid(inputs.labels->labels.grid, inputs.head->volume.grid(),
-                                   "--labels: " + forMessage(options.labels.string())));
+        Result<LabelData> onGrid = labelsOnGrid(inputs.labels->labels, inputs.head->volume.grid(),
+                                                "--labels: " + forMessage(options.labels.string()));
+        VOXTACT_TRY(onGrid);
+        inputs.labels->labels = std::move(*onGrid);
         cpu::PlanObstacle labels;
         labels.volume = &inputs.head->volume;
         labels.labels = &inputs.labels->labels;
@@ -174,8 +178,9 @@ Result<std::unique_ptr<PlanInputs>> readPlan(const PlanOptions& options) {
     if (options.labels.empty() && !options.labelNames.empty()) {
         return badArgument("--label-names: it names the labels of a label map, and --labels is not given");
     }
-    Result<PlanVolume> head = readVolumeOf(options.volumes.front(), options.transferFunction, "the transfer function",
-                                           inputs->notes, options.picture.empty() ? nullptr : &inputs->shown);
+    Result<PlanVolume> head =
+        readVolumeOf(options.volumes.front(), options.resample, options.transferFunction, "the transfer function",
+                     inputs->notes, options.picture.empty() ? nullptr : &inputs->shown);
     VOXTACT_TRY(head);
     inputs->head = std::move(*head);
     if (!options.labels.empty()) {
@@ -186,6 +191,9 @@ Result<std::unique_ptr<PlanInputs>> readPlan(const PlanOptions& options) {
     }
     VOXTACT_TRY(readInstrument(options, *inputs));
     VOXTACT_TRY(readObstacles(options, *inputs));
+    if (options.resample) {
+        inputs->isResampled = inputs->head->isResampled || (inputs->avoided && inputs->avoided->isResampled);
+    }
     VOXTACT_TRY(chooseSurface(options, *inputs));
     VOXTACT_TRY(readTargets(options, *inputs));
     if (inputs->task.surface.volume == nullptr && options.picture.empty() &&

@@ -18,7 +18,7 @@ void addVector(CLI::App& parser, const char* option, std::optional<Vec3>& value,
 }
 
 void addObstacleOptions(CLI::App& parser, const std::shared_ptr<PlanOptions>& options) {
-    addPath(parser, "--labels", options->labels, "label map on the volume's grid");
+    addPath(parser, "--labels", options->labels, "label map on the volume's grid or a part of it");
     addPath(parser, "--label-names", options->labelNames,
             "names of its labels, lines 'number name'; default: the label map's path with .txt, if it exists");
     parser.add_option("--avoid", options->avoid, "labels to avoid, opaque or not: numbers or names")
@@ -74,6 +74,7 @@ void addEntryOptions(CLI::App& parser, const std::shared_ptr<PlanOptions>& optio
 
 void addPlanOptions(CLI::App& parser, const std::shared_ptr<PlanOptions>& options) {
     addVolumeOption(parser, options->volumes);
+    addResampleOption(parser, options->resample);
     addMeshOptions(parser, options->meshes, false);
     addTransferFunctionOptions(parser, options->transferFunction);
     addTargetOptions(parser, options);

@@ -52,6 +52,7 @@ struct PlanOptions {
     std::uint32_t threads = 0;
     bool summary = false;
     bool timing = false;
+    bool resample = false;
     bool progress = true;
     std::filesystem::path byTarget; ///< a CSV file to write; empty: none
     std::filesystem::path surface;  ///< a .ply file to write; empty: none
@@ -71,6 +72,7 @@ struct PlanVolume {
     cpu::TransferFunction transferFunction;
     ScalarType type{};
     ValueRange values; ///< of its voxels
+    bool isResampled = false;
 };
 
 /// A target of the tip.
@@ -102,6 +104,7 @@ struct PlanInputs {
     std::optional<MeshData> shownMesh;        ///< for a picture: source of `mesh`
     std::vector<cpu::PlanObstacle> obstacles; ///< reference the members above
     std::vector<PlanTarget> targets;          ///< of different names; never none
+    std::optional<bool> isResampled;          ///< one of the volumes; nothing: not to be told
     cpu::Plan task;                           ///< refers to all of these; its target is the first
     std::vector<std::string> notes;           ///< printed after success: an error is one line
 };

@@ -140,6 +140,18 @@ io::Cell targetCell(const PlanInputs& inputs, const TargetPlan& plan, std::size_
     }
 }
 
+/// Appends the column of --resample.
+void addResampled(const PlanInputs& inputs, io::Table& table) {
+    if (!inputs.isResampled) {
+        return;
+    }
+    table.cell = [last = table.columns.size(), is = *inputs.isResampled,
+                  cell = std::move(table.cell)](std::size_t row, std::size_t column) {
+        return column == last ? resampledCell(is) : cell(row, column);
+    };
+    table.columns.emplace_back(kResampledColumn);
+}
+
 } // namespace
 
 io::Table planTable(const PlanInputs& inputs, std::span<const TargetPlan> plans, bool timing) {
@@ -157,6 +169,7 @@ io::Table planTable(const PlanInputs& inputs, std::span<const TargetPlan> plans,
         const TargetPlan& plan = plans[number];
         return cellOf(inputs, plan.target, plan.answer.paths[row - firsts[number]], column);
     };
+    addResampled(inputs, out);
     out.facts = {{"voxtact", std::string(programVersion())},
                  {"margin", inputs.task.margin},
                  {"targets", std::uint64_t{inputs.targets.size()}}};
@@ -174,6 +187,7 @@ io::Table targetTable(const PlanInputs& inputs, std::span<const TargetPlan> plan
     out.columns = {kTargetColumns.begin(), kTargetColumns.end()};
     out.rows = plans.size();
     out.cell = [&inputs, plans](std::size_t row, std::size_t column) { return targetCell(inputs, plans[row], column); };
+    addResampled(inputs, out);
     return out;
 }
 

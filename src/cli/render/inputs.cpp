@@ -3,6 +3,7 @@
 
 #include "cli/options/inputs.h"
 #include "cli/options/opacity_notes.h"
+#include "cli/options/placement.h"
 #include "cli/output/standard_streams.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
@@ -23,7 +24,7 @@ Result<void> readMeshes(const RenderOptions& options, RenderInputs& inputs) {
     if (options.meshes.sources.empty()) {
         return {};
     }
-    const Result<std::vector<Mat4>> poses = loadPoses(options.view.poses, options.view.posesSpace);
+    const Result<std::vector<Mat4>> poses = loadPoses(options.view);
     VOXTACT_TRY(poses);
     Result<std::vector<std::uint32_t>> numbers = chosenPoses(options.poses, poses->size());
     VOXTACT_TRY(numbers);
@@ -47,7 +48,7 @@ Result<void> readMeshes(const RenderOptions& options, RenderInputs& inputs) {
 }
 
 Result<void> readVolume(const RenderOptions& options, RenderInputs& inputs) {
-    Result<VolumeData> volume = loadVolume(options.volumes.front());
+    Result<VolumeData> volume = loadVolume(options.volumes.front(), {.resample = options.resample});
     VOXTACT_TRY(volume);
     inputs.volume = std::move(*volume);
     const Result<ValueRange> values = checkVolume(inputs.volume.view());
@@ -144,7 +145,19 @@ Result<void> setLook(const RenderOptions& options, RenderInputs& inputs) {
     return {};
 }
 
-/// Without contacts to show, opacity notes do not matter.
+/// Meshes that are beside the volume in every picture.
+Result<void> noteFar(const RenderOptions& options, RenderInputs& inputs) {
+    for (std::size_t mesh = 0; mesh < inputs.meshes.size(); ++mesh) {
+        const ReadMesh read{options.meshes.sources[mesh], options.meshes, inputs.bounds[mesh], inputs.poses,
+                            options.view.poses.empty() ? "" : options.view.posesSpace};
+        if (placementOf(read, inputs.volume.grid).distance > 0) {
+            printNote(farNote(read, options.volumes.front(), inputs.volume.grid, inputs.poses.size()));
+        }
+    }
+    return {};
+}
+
+/// Where nothing is to be shown to touch, nobody needs to know.
 Result<void> noteOpacity(const RenderOptions& options, RenderInputs& inputs) {
     if (!options.show.what.empty()) {
         printOpacityNotes(inputs.transferFunction(options), inputs.values, options.transferFunction.threshold,
@@ -170,7 +183,7 @@ Result<void> setClearance(const RenderOptions& options, RenderInputs& inputs) {
 
 Result<RenderInputs> readRenderInputs(const RenderOptions& options) {
     RenderInputs inputs;
-    for (const auto read : {readMeshes, readVolume, setCuts, setLook, noteOpacity, setClearance}) {
+    for (const auto read : {readMeshes, readVolume, noteFar, setCuts, setLook, noteOpacity, setClearance}) {
         VOXTACT_TRY(read(options, inputs));
     }
     return inputs;

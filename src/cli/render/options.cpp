@@ -154,6 +154,7 @@ Result<void> checkViewpoint(const RenderOptions& options) {
 void addRenderOptions(CLI::App& parser, RenderOptions& options) {
     parser.footer(kRenderFooter);
     addVolumeOption(parser, options.volumes);
+    addResampleOption(parser, options.resample);
     addMeshOptions(parser, options.meshes, false);
     addTransferFunctionOptions(parser, options.transferFunction);
     addTableOptions(parser, options.transferFunction);

@@ -42,6 +42,7 @@ struct RenderOptions {
     std::string lighting = "soft";
     std::optional<bool> annotate;
     std::string title;
+    bool resample = false;
     bool progress = true;
 };
 

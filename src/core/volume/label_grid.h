@@ -10,10 +10,14 @@
 /// Checks the label maps of a question about labels.
 namespace voxtact {
 
-[[nodiscard]] Error notOnGrid(const std::string& which);
-/// Refuses a label map that is not on a volume's grid. Two files of one grid may differ in its last digits: voxels that
-/// are less than a ten-thousandth of one apart are the same. `which` begins the text of a refusal.
+/// Refuses a label map that is not on a volume's grid, and says in what they differ. Two files of one grid may differ
+/// in its last digits: voxels that are less than a ten-thousandth of one apart are the same. `which` begins the text.
 [[nodiscard]] Result<void> checkLabelGrid(const Grid& labels, const Grid& volume, const std::string& which);
+
+/// The label map on a volume's grid, of which its own is a part: the same directions and spacing, an offset of whole
+/// voxels, to a thousandth of one. Voxels outside of that part have the label 0. Refuses other grids like
+/// checkLabelGrid().
+[[nodiscard]] Result<LabelData> labelsOnGrid(const LabelData& labels, const Grid& volume, const std::string& which);
 
 /// Refuses more than kMaxMeasuredLabels labels.
 [[nodiscard]] Result<void> checkMeasuredLabels(std::span<const std::int32_t> labels);

@@ -143,7 +143,9 @@ LabelSet allLabels(const OpaquePart& part, const VolumeImpl& volume, const Label
 
 Result<void> checkLabelsOnGrid(const LabelData& labels, const Grid& grid, const std::string& which) {
     if (labels.indices.size() != voxelCount(labels.grid)) {
-        return notOnGrid(which);
+        return Error{ErrorCode::Unsupported, 0,
+                     which + ": the label map has " + std::to_string(labels.indices.size()) +
+                         " voxels, its grid another number"};
     }
     return checkLabelGrid(labels.grid, grid, which);
 }

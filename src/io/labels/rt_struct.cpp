@@ -120,6 +120,8 @@ class RtStructReader {
     /// False if the contour is not in a slice.
     bool takeContour(const std::vector<double>& numbers, Region& region) {
         constexpr double kOff = 0.1;
+        constexpr double kFar = 1e12; // voxels: differences and quotients of nearer places are finite
+        bool isFar = false;
         Contour contour;
         double slice = 0;
         for (std::size_t at = 0; at < numbers.size(); at += 3) {
@@ -127,9 +129,10 @@ class RtStructReader {
             std::array<double, 3> voxel{};
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 voxel[axis] = texture[axis] * static_cast<double>(grid_.size[axis]) - 0.5;
+                isFar = isFar || !(std::abs(voxel[axis]) <= kFar);
             }
             slice = at == 0 ? std::round(voxel[2]) : slice;
-            if (!(std::abs(voxel[2] - slice) <= kOff)) {
+            if (isFar || !(std::abs(voxel[2] - slice) <= kOff)) {
                 return false;
             }
             contour.push_back({voxel[0], voxel[1]});

@@ -7,6 +7,8 @@
 #include "voxtact/io.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -18,6 +20,11 @@ namespace {
 
 constexpr std::size_t kElements = 16;
 constexpr std::size_t kRows = 12; // without the last row, 0 0 0 1
+constexpr std::size_t kRigid = 7; // a translation and a quaternion
+
+constexpr std::array kFormats{PoseFormat::Matrix, PoseFormat::TranslationXyzw, PoseFormat::TranslationWxyz,
+                              PoseFormat::XyzwTranslation, PoseFormat::WxyzTranslation};
+constexpr std::array kFormatNames{"matrix", "t-xyzw", "t-wxyz", "xyzw-t", "wxyz-t"};
 
 std::string lineName(const std::filesystem::path& path, std::uint64_t line) {
     return path.string() + " line " + std::to_string(line);
@@ -33,7 +40,7 @@ Result<std::vector<double>> numbersOf(std::string_view text, const std::filesyst
     std::vector<std::string_view> tokens;
     const auto commas = std::count(text.begin(), text.end(), ',');
     // Any other number of them is one of decimal commas.
-    if (commas == 3 || commas == kRows - 1 || commas == kElements - 1) {
+    if (commas == 3 || commas == kRigid - 1 || commas == kRows - 1 || commas == kElements - 1) {
         for (std::size_t end = text.find(','); end != std::string_view::npos; end = text.find(',')) {
             tokens.push_back(trimmed(text.substr(0, end)));
             text.remove_prefix(end + 1);
@@ -70,10 +77,56 @@ Result<Mat4> makePose(std::vector<double> numbers, const std::filesystem::path& 
     return pose;
 }
 
+Result<Mat4> rigidPose(const std::vector<double>& numbers, PoseFormat format, const std::filesystem::path& path,
+                       std::uint64_t line) {
+    constexpr double kOff = 1e-3; // digits that were rounded, and nothing else
+    if (numbers.size() != kRigid) {
+        return badLine(path, line,
+                       std::to_string(numbers.size()) + (numbers.size() == 1 ? " number" : " numbers") +
+                           ", a pose of the format " + toString(format) + " has 7");
+    }
+    const bool isTranslationFirst = format == PoseFormat::TranslationXyzw || format == PoseFormat::TranslationWxyz;
+    const bool isScalarFirst = format == PoseFormat::TranslationWxyz || format == PoseFormat::WxyzTranslation;
+    const double* const translation = numbers.data() + (isTranslationFirst ? 0 : 4);
+    const double* const quaternion = numbers.data() + (isTranslationFirst ? 3 : 0);
+    const double norm = std::sqrt(quaternion[0] * quaternion[0] + quaternion[1] * quaternion[1] +
+                                  quaternion[2] * quaternion[2] + quaternion[3] * quaternion[3]);
+    if (!(std::abs(norm - 1) <= kOff)) {
+        return badLine(path, line,
+                       "the quaternion has the norm " + number(norm) +
+                           ", not 1; are its numbers in the order of the "
+                           "format " +
+                           toString(format) + "?");
+    }
+    const double* const imaginary = quaternion + (isScalarFirst ? 1 : 0);
+    const double w = quaternion[isScalarFirst ? 0 : 3] / norm;
+    const double x = imaginary[0] / norm;
+    const double y = imaginary[1] / norm;
+    const double z = imaginary[2] / norm;
+    return Mat4{1 - 2 * (y * y + z * z), 2 * (x * y + w * z),     2 * (x * z - w * y),     0,
+                2 * (x * y - w * z),     1 - 2 * (x * x + z * z), 2 * (y * z + w * x),     0,
+                2 * (x * z + w * y),     2 * (y * z - w * x),     1 - 2 * (x * x + y * y), 0,
+                translation[0],          translation[1],          translation[2],          1};
+}
+
 } // namespace
+
+std::span<const PoseFormat> poseFormats() noexcept {
+    return kFormats;
+}
+
+const char* toString(PoseFormat format) noexcept {
+    return kFormatNames[static_cast<std::size_t>(format)];
+}
+
+std::optional<PoseFormat> poseFormatFromName(std::string_view name) noexcept {
+    const auto found = std::ranges::find_if(kFormats, [name](PoseFormat format) { return toString(format) == name; });
+    return found == kFormats.end() ? std::nullopt : std::optional(*found);
+}
 
 struct PoseReader::State {
     LineReader lines;
+    PoseFormat format = PoseFormat::Matrix;
     bool any = false;
 
     /// The next pose; nothing at the end.
@@ -105,14 +158,19 @@ Result<std::optional<Mat4>> PoseReader::State::next() {
     VOXTACT_TRY(first);
     if (!first->has_value()) {
         return any ? Result(std::optional<Mat4>())
-                   : cannotRead(lines.name(), "it holds no pose; a pose is a line of 16 numbers, row by row");
+                   : cannotRead(lines.name(), format == PoseFormat::Matrix
+                                                  ? "it holds no pose; a pose is a line of 16 numbers, row by row"
+                                                  : "it holds no pose; a pose is a line of 7 numbers");
     }
     const Result<Mat4> pose = [&]() -> Result<Mat4> {
-        if ((*first)->starts_with(kTransform)) {
+        if (format == PoseFormat::Matrix && (*first)->starts_with(kTransform)) {
             return transform(trimmed((*first)->substr(kTransform.size())));
         }
         Result<std::vector<double>> numbers = numbersOf(**first, lines.name(), lines.lineNumber());
         VOXTACT_TRY(numbers);
+        if (format != PoseFormat::Matrix) {
+            return rigidPose(*numbers, format, lines.name(), lines.lineNumber());
+        }
         return numbers->size() == 4 ? block(std::move(*numbers))
                                     : makePose(std::move(*numbers), lines.name(), lines.lineNumber());
     }();
@@ -193,20 +251,20 @@ PoseReader::PoseReader(PoseReader&&) noexcept = default;
 PoseReader& PoseReader::operator=(PoseReader&&) noexcept = default;
 PoseReader::~PoseReader() = default;
 
-Result<PoseReader> PoseReader::open(const std::filesystem::path& path) {
+Result<PoseReader> PoseReader::open(const std::filesystem::path& path, PoseFormat format) {
     return guard([&]() -> Result<PoseReader> {
         Result<LineReader> lines = LineReader::open(path);
         VOXTACT_TRY(lines);
-        return PoseReader(std::make_unique<State>(State{std::move(*lines)}));
+        return PoseReader(std::make_unique<State>(State{std::move(*lines), format}));
     });
 }
 
-Result<PoseReader> PoseReader::over(std::istream& stream, const std::string& name) {
+Result<PoseReader> PoseReader::over(std::istream& stream, const std::string& name, PoseFormat format) {
     return guard([&]() -> Result<PoseReader> {
         if (stream.bad() || stream.rdbuf() == nullptr) {
             return readingStopped(name);
         }
-        return PoseReader(std::make_unique<State>(State{LineReader::over(stream, name)}));
+        return PoseReader(std::make_unique<State>(State{LineReader::over(stream, name), format}));
     });
 }
 
@@ -224,9 +282,9 @@ Result<bool> PoseReader::read(std::size_t most, std::vector<Mat4>& world_from_ob
     });
 }
 
-Result<std::vector<Mat4>> readPoses(const std::filesystem::path& path) {
+Result<std::vector<Mat4>> readPoses(const std::filesystem::path& path, PoseFormat format) {
     return guard([&]() -> Result<std::vector<Mat4>> {
-        Result<PoseReader> reader = PoseReader::open(path);
+        Result<PoseReader> reader = PoseReader::open(path, format);
         VOXTACT_TRY(reader);
         std::vector<Mat4> poses;
         const Result<bool> more = reader->read(std::numeric_limits<std::size_t>::max(), poses);

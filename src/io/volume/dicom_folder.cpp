@@ -3,6 +3,7 @@
 
 #include "core/base/try.h"
 #include "io/errors.h"
+#include "io/volume/dicom_resample.h"
 #include "io/volume/dicom_stack.h"
 #include "io/volume/dicom_values.h"
 #include "io/volume/dicom_walker.h"
@@ -255,10 +256,9 @@ void noteOddities(const Survey& found, const Stack& stack, std::vector<std::stri
     }
 }
 
-std::vector<std::string> notesOf(const Survey& found, const Stack& stack, const StoredImage& image) {
-    std::vector<std::string> notes{"DICOM series of " + std::to_string(stack.slices.size()) + " slices, " +
-                                   millimetres(image.grid.spacing[2]) + " mm apart"};
-    if (std::string note = rescaleNote(stack.slices, image.type); !note.empty()) {
+std::vector<std::string> notesOf(const Survey& found, const Stack& stack, StoredType type, const std::string& apart) {
+    std::vector<std::string> notes{"DICOM series of " + std::to_string(stack.slices.size()) + " slices" + apart};
+    if (std::string note = rescaleNote(stack.slices, type); !note.empty()) {
         notes.push_back(std::move(note));
     }
     if (found.others > 0) {
@@ -287,18 +287,30 @@ Result<StoredImage> readDicomFolder(const fs::path& folder, const VolumeReadOpti
     const std::vector<DicomFile>& files = found->images;
     Result<Stack> stack = stackOf(folder, files);
     VOXTACT_TRY(stack);
-    std::vector<std::string> lean;
-    const Result<Grid> grid = stackSlices(folder, files, stack->images.front(), stack->slices, lean);
-    VOXTACT_TRY(grid);
-    StoredImage image;
-    image.grid = *grid;
-    image.type = dicomType(stack->images, stack->slices);
-    Result<std::vector<std::byte>> voxels =
-        dicomVoxels(files, stack->images, stack->slices, image.type, options.progress);
+    VOXTACT_TRY(sortSlices(folder, files, stack->slices));
+    std::vector<std::string> places; // notes
+    const Result<Grid> grid = stackSlices(folder, stack->images.front(), stack->slices, places);
+    std::optional<DicomResampler> resampler;
+    if (!grid.ok() && options.resample) {
+        Result<DicomResampler> made = DicomResampler::create(folder, stack->images.front(), stack->slices);
+        VOXTACT_TRY(made);
+        resampler = std::move(*made);
+    } else {
+        VOXTACT_TRY(grid);
+    }
+    const StoredType type = dicomType(stack->images, stack->slices);
+    Result<std::vector<std::byte>> voxels = dicomVoxels(files, stack->images, stack->slices, type, options.progress);
     VOXTACT_TRY(voxels);
-    image.voxels = std::move(*voxels);
-    notes = notesOf(*found, *stack, image);
-    notes.insert(notes.end(), lean.begin(), lean.end());
+    StoredImage image;
+    if (resampler) {
+        image = resampler->resample(type, *voxels, places);
+    } else {
+        image.grid = *grid;
+        image.type = type;
+        image.voxels = std::move(*voxels);
+    }
+    notes = notesOf(*found, *stack, type, resampler ? "" : ", " + millimetres(grid->spacing[2]) + " mm apart");
+    notes.insert(notes.end(), places.begin(), places.end());
     return image;
 }
 

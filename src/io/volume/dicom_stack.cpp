@@ -103,6 +103,8 @@ double tolerance(double gap) {
     return std::max(kLeast, kShare * gap);
 }
 
+constexpr const char* kHow = " (to the program: --resample)";
+
 /// "'a.dcm' (at 12.5 mm) and 'b.dcm' (at 17.5 mm)"; places along the normal, from the patient's origin.
 std::string between(const DicomSlice& a, const DicomSlice& b) {
     return a.name + " (at " + millimetres(a.height) + " mm) and " + b.name + " (at " + millimetres(b.height) + " mm)";
@@ -124,11 +126,11 @@ Error unevenGap(const std::filesystem::path& folder, const std::vector<DicomSlic
         const std::string what = missing == 1 ? "a slice is missing" : number(missing) + " slices are missing";
         return cannotRead(folder, what + " between " + where + rest + ": most gaps are " + millimetres(usualGap) +
                                       " mm, this one is " + millimetres(here) +
-                                      " mm; add what is missing, or resample the series");
+                                      " mm; add what is missing, or resample the series" + kHow);
     }
     return cannotRead(folder, "the gaps between its slices are uneven: " + millimetres(here) + " mm between " + where +
                                   rest + ", where " + millimetres(usualGap) +
-                                  " mm are usual; resample the series to even gaps");
+                                  " mm are usual; resample the series to even gaps" + kHow);
 }
 
 /// Where a slice is off the even spacing; 0 where none is.
@@ -149,20 +151,10 @@ std::size_t firstUneven(const std::vector<DicomSlice>& slices, double usualGap) 
     return 0;
 }
 
-Result<void> checkPlaces(const std::filesystem::path& folder, const std::vector<DicomFile>& files,
-                         const std::vector<DicomSlice>& slices) {
-    constexpr double kSame = 1e-4;
+Result<void> checkGaps(const std::filesystem::path& folder, const std::vector<DicomSlice>& slices) {
     std::vector<double> gaps;
     for (std::size_t i = 1; i < slices.size(); ++i) {
         gaps.push_back(slices[i].height - slices[i - 1].height);
-        if (gaps.back() < kSame) {
-            const bool oneFile = slices[i].file == slices[i - 1].file;
-            return cannotRead(folder,
-                              slices[i - 1].name + " and " + slices[i].name + " are at the same place (" +
-                                  millimetres(slices[i].height) + " mm): " +
-                                  (oneFile ? "the file holds more than one image; export one of them alone"
-                                           : difference(files[slices[i - 1].file].set, files[slices[i].file].set)));
-        }
     }
     std::nth_element(gaps.begin(), gaps.begin() + static_cast<std::ptrdiff_t>((gaps.size() - 1) / 2), gaps.end());
     const double usualGap = gaps[(gaps.size() - 1) / 2];
@@ -190,16 +182,16 @@ Result<void> checkUpright(const std::filesystem::path& folder, const std::vector
         most = std::max(most, std::hypot(shift[0], shift[1]));
         const double beside = std::hypot(shift[0] - share * whole[0], shift[1] - share * whole[1]);
         if (beside > allowed) {
-            return cannotRead(folder, slices[i].name + " (at " + millimetres(slices[i].height) + " mm) lies " +
-                                          millimetres(beside) +
-                                          " mm beside the line of the other slices' first pixels; resample the series");
+            return cannotRead(
+                folder, slices[i].name + " (at " + millimetres(slices[i].height) + " mm) lies " + millimetres(beside) +
+                            " mm beside the line of the other slices' first pixels; resample the series" + kHow);
         }
     }
     const double shift = std::hypot(whole[0], whole[1]);
     const double degrees = std::atan2(shift, rise) * 180 / std::numbers::pi;
     if (shift > allowed) {
         return cannotRead(folder, "its slices are sheared by " + number(std::round(degrees * 10) / 10) +
-                                      " degrees (tilted gantry); resample the series to an upright one");
+                                      " degrees (tilted gantry); resample the series to an upright one" + kHow);
     }
     constexpr double kRounding = 0.01; // mm, of positions as they are written
     if (most > kRounding) {
@@ -232,16 +224,33 @@ Result<void> checkAlike(const std::vector<DicomFile>& files, const std::vector<D
     return {};
 }
 
-Result<Grid> stackSlices(const std::filesystem::path& folder, const std::vector<DicomFile>& files,
-                         const DicomImage& image, std::vector<DicomSlice>& slices, std::vector<std::string>& notes) {
+Result<void> sortSlices(const std::filesystem::path& folder, const std::vector<DicomFile>& files,
+                        std::vector<DicomSlice>& slices) {
+    constexpr double kSame = 1e-4;
     const Vec3 normal = cross(slices.front().across, slices.front().down);
     for (DicomSlice& slice : slices) {
         slice.height = dot(slice.position, normal);
     }
     std::stable_sort(slices.begin(), slices.end(),
                      [](const DicomSlice& a, const DicomSlice& b) { return a.height < b.height; });
-    VOXTACT_TRY(checkPlaces(folder, files, slices));
+    for (std::size_t i = 1; i < slices.size(); ++i) {
+        if (slices[i].height - slices[i - 1].height < kSame) {
+            const bool oneFile = slices[i].file == slices[i - 1].file;
+            return cannotRead(folder,
+                              slices[i - 1].name + " and " + slices[i].name + " are at the same place (" +
+                                  millimetres(slices[i].height) + " mm): " +
+                                  (oneFile ? "the file holds more than one image; export one of them alone"
+                                           : difference(files[slices[i - 1].file].set, files[slices[i].file].set)));
+        }
+    }
+    return {};
+}
+
+Result<Grid> stackSlices(const std::filesystem::path& folder, const DicomImage& image,
+                         const std::vector<DicomSlice>& slices, std::vector<std::string>& notes) {
+    VOXTACT_TRY(checkGaps(folder, slices));
     const DicomSlice& first = slices.front();
+    const Vec3 normal = cross(first.across, first.down);
     const double gap = (slices.back().height - first.height) / static_cast<double>(slices.size() - 1);
     VOXTACT_TRY(checkUpright(folder, slices, gap, notes));
     Grid grid;

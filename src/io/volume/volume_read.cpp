@@ -6,8 +6,11 @@
 #include "io/labels/dicom_labels.h"
 #include "io/labels/segment_map.h"
 #include "io/volume/dicom_folder.h"
+#include "io/volume/dicom_resample.h"
 #include "io/volume/volume_container.h"
 #include "voxtact/io.h"
+
+#include <algorithm>
 
 namespace voxtact::io {
 
@@ -82,6 +85,10 @@ Result<VolumeData> readVolume(std::string_view name, std::span<const std::byte> 
     });
 }
 
+bool wasResampled(const VolumeData& volume) noexcept {
+    return std::ranges::any_of(volume.notes, [](const std::string& note) { return note.starts_with(kResampledNote); });
+}
+
 Result<LabelFile> readLabels(const fs::path& path, const VolumeReadOptions& options) {
     return guard([&]() -> Result<LabelFile> {
         Result<std::optional<LabelFile>> segmentation = readSegNrrd(path, options);
@@ -103,7 +110,9 @@ bool holdsContours(const fs::path& path) {
 Result<LabelFile> readLabelImage(const fs::path& path, const VolumeReadOptions& options) {
     return guard([&]() -> Result<LabelFile> {
         LabelFile file;
-        Result<StoredImage> image = readStored(path, options, file.notes);
+        VolumeReadOptions asStored = options;
+        asStored.resample = false;
+        Result<StoredImage> image = readStored(path, asStored, file.notes);
         VOXTACT_TRY(image);
         Result<LabelData> labels = [&]() -> Result<LabelData> {
             if (isWide(*image)) {

@@ -67,9 +67,10 @@ class Volume:
         return volume
 
     @classmethod
-    def read(cls, path: bytes, frame: Optional[int], series: bytes) -> Volume:
+    def read(cls, path: bytes, frame: Optional[int], series: bytes, resample: bool) -> Volume:
         kept = ffi.new("char[]", series)
-        options = struct("volume_read_options", choose_frame=frame is not None, frame=frame or 0, series=kept)
+        options = struct("volume_read_options", choose_frame=frame is not None, frame=frame or 0, series=kept,
+                         resample=resample)
         return cls._of(guarded(made, "volume_data", lib.vxt_read_volume, path, options))
 
     @classmethod

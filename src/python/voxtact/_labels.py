@@ -105,6 +105,8 @@ def read_labels(source: Any, *, names: Union[None, dict[int, str], str, os.PathL
 
     names: the label names, as a dict or a file (see `read_label_names`).
     """
+    if options.get("resample"):
+        raise InvalidArgumentError("resample= is for images: labels are not interpolated")
     known = _checked(names) if names is None or isinstance(names, dict) else read_label_names(names)
     if isinstance(source, Labels):
         read_volume(source.volume, **options)  # the library does not use them

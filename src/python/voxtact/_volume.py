@@ -351,18 +351,21 @@ def _refuse_what_is_no_array(source: Any) -> None:
 
 
 def read_volume(source: Any, *, affine: Optional[npt.ArrayLike] = None, space: Optional[Space] = None,
-                axes: Optional[Literal["zyx", "xyz"]] = None, frame: Optional[int] = None, series: str = "") -> Volume:
-    """Reads a volume from a file, an array, or an image of another library.
+                axes: Optional[Literal["zyx", "xyz"]] = None, frame: Optional[int] = None, series: str = "",
+                resample: bool = False) -> Volume:
+    """A volume from a file, an array, or an image of another library.
 
     source
         - a path: NIfTI, NRRD, MetaImage, or a folder with a DICOM series; ``"builtin:head:64"`` and the other names of
-          the program's builtins. `frame` selects an image of a 4D file, `series` a SeriesInstanceUID.
-        - an array of three dimensions with `affine`, (4,4): it maps voxel indices (x, y, z, 1) to the world in mm, RAS
-          as in nibabel, or LPS with ``space="lps"``. The array is indexed [x, y, z], as in nibabel; with
-          ``axes="zyx"`` it is indexed [z, y, x], like `Volume.array`. Its order in memory does not matter. Named
-          dimensions x, y and z, such as xarray's, override `axes`; coordinates are ignored.
-        - a nibabel image (4D: with `frame`), an image of SimpleITK or itk, or a vtkImageData (LPS, unless
-          ``space="ras"``).
+          the program's builtins. `frame` chooses one of a 4D file, `series` a SeriesInstanceUID. With `resample` DICOM
+          slices that make no regular grid (uneven gaps, a tilted gantry) are interpolated linearly, with a note; they
+          are refused without it.
+        - an array of three dimensions with `affine`, (4,4): it takes voxel numbers (x, y, z, 1) to the world in mm, to
+          RAS as nibabel's do, or to LPS with ``space="lps"``. The array is indexed [x, y, z], as nibabel's are; with
+          ``axes="zyx"`` it is indexed [z, y, x], as `Volume.array` is. Its order in memory does not matter. Dimensions
+          that are named x, y and z, as xarray's may be, say it themselves; coordinates are not looked at.
+        - a nibabel image (4D: with `frame`), an image of SimpleITK or itk, or a vtkImageData (which knows no space: LPS,
+          unless ``space="ras"``).
 
     uint8, int16, uint16 and float32 arrays whose x axis is contiguous are not copied, and must not change afterwards.
     Other whole numbers become int16, uint16 or, if exact, float32; float64 is rounded. `Volume.notes` lists copies.
@@ -370,6 +373,9 @@ def read_volume(source: Any, *, affine: Optional[npt.ArrayLike] = None, space: O
     Raises FileError, FormatError, and InvalidArgumentError, also for NaN and infinite voxels.
     """
     placed = affine is not None or space is not None or axes is not None
+    is_builtin = isinstance(source, str) and source.startswith(BUILTIN)
+    if resample and (is_builtin or not isinstance(source, (str, bytes, os.PathLike))):
+        raise InvalidArgumentError("resample= is for a folder with a DICOM series")
     if isinstance(source, Volume):
         if placed or frame is not None or series:
             raise InvalidArgumentError("a Volume is taken as it is: affine=, space=, axes=, frame= and series= are for others")
@@ -379,11 +385,11 @@ def read_volume(source: Any, *, affine: Optional[npt.ArrayLike] = None, space: O
     if isinstance(source, (str, bytes, os.PathLike)):
         if placed:
             raise InvalidArgumentError("affine=, space= and axes= are for arrays: a file says where its voxels are")
-        if isinstance(source, str) and source.startswith(BUILTIN):
+        if is_builtin:
             if frame is not None or series:
                 raise InvalidArgumentError("frame= and series= are for files and nibabel's images")
             return Volume._of(core.Volume.builtin(encoded_text(source[len(BUILTIN):], "the name of the builtin")))
-        return Volume._of(core.Volume.read(encoded(source), frame, encoded_text(series, "series")))
+        return Volume._of(core.Volume.read(encoded(source), frame, encoded_text(series, "series"), bool(resample)))
     if hasattr(source, "affine") and hasattr(source, "dataobj"):
         if placed or series:
             raise InvalidArgumentError("affine=, space= and axes= are for arrays, series= for files: an image of nibabel says "

@@ -66,7 +66,7 @@ Result<view::Document> documentOf(const ViewerOptions& options, ScalarType type,
         document.edit.colours = colours->empty() ? document.edit.colours : *colours;
     }
     if (!options.poses.empty()) {
-        const Result<std::vector<Mat4>> poses = loadPoses(options.poses);
+        const Result<std::vector<Mat4>> poses = loadPoses({.poses = options.poses});
         VOXTACT_TRY(poses);
         document.poses = *poses;
         document.edit.pose() = poses->front();
@@ -96,9 +96,10 @@ std::string nameOf(const std::string& source) {
 /// The files of a document.
 Result<void> load(const view::Sources& sources, Opened& opened, view::Progress& progress) {
     VOXTACT_TRY(progress.begin("reading " + nameOf(sources.volume)));
-    Result<VolumeData> volume = loadVolume(sources.volume, [&progress](std::uint64_t done, std::uint64_t all) {
+    const auto tell = [&progress](std::uint64_t done, std::uint64_t all) {
         return progress.tell(all == 0 ? 1 : static_cast<double>(done) / static_cast<double>(all));
-    });
+    };
+    Result<VolumeData> volume = loadVolume(sources.volume, {.progress = tell});
     VOXTACT_TRY(volume);
     const Result<ValueRange> values = checkVolume(volume->view());
     VOXTACT_TRY(values);

@@ -229,8 +229,10 @@ TEST(Clearance, RefusesWhatItCannotUse) {
     const LabelData labels = take(makeLabels(makeBytes(unitGrid(8), [](auto...) { return 1; }).view()));
     const LabelData coarse = take(makeLabels(makeBytes(unitGrid(4), [](auto...) { return 1; }).view()));
     EXPECT_EQ(refusedLabels(nullptr, one), "batch item 0: labels is null, and clearances to labels are asked for");
-    EXPECT_EQ(refusedLabels(&coarse, one),
-              "batch item 0: the label map is not on the grid of the volume; resample it to that");
+    EXPECT_EQ(
+        refusedLabels(&coarse, one),
+        "batch item 0: the label map is not on the grid of the volume: its 4 x 4 x 4 voxels begin at voxel 0, 0, 0 "
+        "of the volume's 8 x 8 x 8; resample it to that");
     EXPECT_NE(refusedLabels(&labels, std::vector<std::int32_t>(5000, 1)), "");
     LabelData beyond = labels;
     beyond.indices[5] = 60000;

@@ -227,6 +227,9 @@ TEST(RtStruct, RefusesWhatIsNoLabelMap) {
     expectRefused(read({{"CLOSED_PLANAR", "0\\0\\9.5\\1\\0\\9.5\\1\\1\\10.5"}}),
                   "is not within a tenth of the slice distance");
     expectRefused(read({{"CLOSED_PLANAR", "0\\0\\8.5\\1\\0\\8.5\\1\\1\\8.5"}}), "is not within a tenth");
+    // So far away that crossings would be no numbers.
+    expectRefused(read({{"CLOSED_PLANAR", "1e308\\0\\9.5\\-1e308\\1e308\\9.5\\0\\-1e308\\9.5"}}),
+                  "is not within a tenth");
     EXPECT_THAT(read({{"CLOSED_PLANAR", "0\\0\\4.5\\1\\0\\4.5\\1\\1\\4.5"}})->notes,
                 ElementsAre("1 contours beyond the first and the last slice left out"));
     expectRefused(io::readLabels(folder.write("s.dcm", rtStruct({{"CLOSED_PLANAR", square}}).remove(0x30060039).file()),
