@@ -158,10 +158,16 @@ struct OpacityFacts {
 [[nodiscard]] VOXTACT_API Result<OpacityFacts> checkOpacity(const TransferFunctionDesc& desc, const ValueRange& data,
                                                             double threshold = kDefaultThreshold);
 
+/// mm: default of the deflection with which curved surfaces are triangulated.
+inline constexpr double kDefaultDeflection = 0.01;
+
 /// A triangle mesh somebody else owns, in object space. Three doubles per vertex, three indices per triangle.
 struct MeshView {
     std::span<const double> positions;      ///< x, y, z of each vertex, object space
     std::span<const std::uint32_t> indices; ///< three per triangle
+    /// Object units: no point of the curved surface that the triangles stand for is farther from them. cpu::HostEngine
+    /// answers Touch with *no* only where that surface does not touch; all other answers are about the triangles.
+    double deflection = 0;
 };
 
 /// A triangle mesh that owns its arrays.
@@ -170,9 +176,10 @@ struct MeshData {
     std::vector<std::uint32_t> indices; ///< three a triangle
     std::string name;                   ///< the file's name, or the builtin's
     std::vector<std::string> notes;     ///< as in VolumeData
+    double deflection = 0;              ///< as in MeshView
 
     /// Of these arrays; valid as long as they are.
-    [[nodiscard]] MeshView view() const noexcept { return {positions, indices}; }
+    [[nodiscard]] MeshView view() const noexcept { return {positions, indices, deflection}; }
 };
 
 /// An axis-aligned box.
@@ -191,13 +198,15 @@ struct MeshFacts {
     /// relative to a centre of the mesh's own where it is far from the origin and floats would lose something.
     /// Certified answers hold for the vertices as they were given.
     double rounding = 0;
+    double deflection = 0; ///< MeshView::deflection
 };
 
 /// Object units, a hundred nanometres at a scale of 1: a larger MeshFacts::rounding is worth a note.
 inline constexpr double kNotedRounding = 1e-4;
 
-/// Refuses a mesh with no triangle, arrays whose length is not a multiple of three, vertices that are NaN, infinite or
-/// beyond the range of floats, and indices out of range (the first is named). O(vertices + triangles).
+/// Refuses a mesh with no triangle, a deflection that is negative or not finite, arrays whose length is not a multiple
+/// of three, vertices that are NaN, infinite or beyond the range of floats, and indices out of range (the first is
+/// named). O(vertices + triangles).
 [[nodiscard]] VOXTACT_API Result<MeshFacts> checkMesh(const MeshView& mesh);
 
 /// The camera of the projections `view` and `two-view`.

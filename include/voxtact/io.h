@@ -111,7 +111,8 @@ struct MeshReadOptions {
     /// it),
     /// else LPS. A header that says another one is refused.
     std::optional<MeshSpace> space{};
-    double scale = 1; ///< millimetres in a unit of the file; positive
+    double scale = 1; ///< millimetres in a unit of the file; positive. Of STEP and IGES: in their mm
+    double deflection = kDefaultDeflection; ///< mm: STEP and IGES are triangulated with it; from 1e-6 on
 };
 
 /// The note of a mesh whose MeshFacts::rounding is more than kNotedRounding; otherwise empty.
@@ -130,10 +131,14 @@ struct MeshReadOptions {
 /// with curved surfaces or weights other than 1, VTK files of other datasets, glTF that requires an extension other
 /// than KHR_mesh_quantization, KHR_node_visibility and those about looks and lights, and a scale that is not positive
 /// and finite.
+///
+/// STEP and IGES (.step, .stp, .iges, .igs): the program voxtact-step, which lies beside the library or the calling
+/// program, reads and triangulates them by OpenCASCADE, in a process of its own. Without it they are refused.
+/// MeshData::deflection bounds how far the faces of the file are from the triangles.
 [[nodiscard]] VOXTACT_API Result<MeshData> readMesh(const std::filesystem::path& path,
                                                     const MeshReadOptions& options = {});
 /// The same for a file in memory. Messages call it `name`, and the ending of that is the format. glTF that refers to
-/// other files is refused.
+/// other files is refused, and so are STEP and IGES.
 [[nodiscard]] VOXTACT_API Result<MeshData>
 readMesh(std::span<const std::byte> content, const std::filesystem::path& name, const MeshReadOptions& options = {});
 

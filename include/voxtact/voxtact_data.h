@@ -67,6 +67,7 @@ typedef struct vxt_mesh_view {
     size_t vertex_count;     ///< vertices
     const uint32_t* indices; ///< three a triangle
     size_t triangle_count;   ///< triangles
+    double deflection;       ///< object units: voxtact::MeshView::deflection
 } vxt_mesh_view;
 
 /// An axis-aligned box. Empty where lo > hi.
@@ -82,6 +83,7 @@ typedef struct vxt_mesh_facts {
     uint32_t triangles;  ///< how many, degenerate ones included
     uint32_t degenerate; ///< triangles whose area is zero in float: allowed, no pixel of a view is theirs
     double rounding;     ///< object units: voxtact::MeshFacts::rounding; above 1e-4 worth a note
+    double deflection;   ///< object units: that of the view
 } vxt_mesh_facts;
 
 /// A box of voxels.

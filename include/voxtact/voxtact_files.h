@@ -25,6 +25,7 @@ typedef struct vxt_mesh_read_options {
     size_t struct_size; ///< sizeof
     double scale;       ///< millimetres in a unit of the file; 0: 1
     uint32_t ras;       ///< 1: RAS coordinates: x and y are negated; 0: what the file says, else LPS
+    double deflection;  ///< mm: STEP and IGES are triangulated with it; 0: 0.01
 } vxt_mesh_read_options;
 
 /// A volume from a file or a DICOM folder: voxtact::io::readVolume(). Null options are the defaults.
