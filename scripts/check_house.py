@@ -20,6 +20,7 @@ ARROWS = {
     "device": "core exact vulkan",
     "render": "core exact vulkan device",
     "io": "core",
+    "step": "io",
     "samples": "core",
     "c": "core",
     "python": "",
@@ -27,7 +28,7 @@ ARROWS = {
     "viewer": "core exact vulkan device host io render samples cli",
     "bench": "core exact vulkan device host io render samples cli oracle",
 }
-WITHOUT_VULKAN = ("src/core/", "src/exact/", "src/io/", "src/host/", "src/samples/", "src/viewer/model/")
+WITHOUT_VULKAN = ("src/core/", "src/exact/", "src/io/", "src/host/", "src/samples/", "src/step/", "src/viewer/model/")
 
 PARTS = {*ARROWS, "oracle"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')

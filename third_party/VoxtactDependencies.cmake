@@ -31,6 +31,17 @@ if(VOXTACT_BUILD_IO)
   find_package(ZLIB REQUIRED)
 endif()
 
+# voxtact-step: OpenCASCADE. Its package file asks for all of its libraries, viewers included.
+if(VOXTACT_BUILD_STEP)
+  find_path(VOXTACT_OPENCASCADE_INCLUDE_DIR STEPControl_Reader.hxx PATH_SUFFIXES opencascade REQUIRED)
+  add_library(voxtact_opencascade INTERFACE)
+  target_include_directories(voxtact_opencascade SYSTEM INTERFACE "${VOXTACT_OPENCASCADE_INCLUDE_DIR}")
+  foreach(name TKSTEP TKIGES TKXSBase TKMesh TKTopAlgo TKGeomAlgo TKBRep TKGeomBase TKG3d TKG2d TKMath TKernel)
+    find_library(VOXTACT_OPENCASCADE_${name} ${name} REQUIRED)
+    target_link_libraries(voxtact_opencascade INTERFACE "${VOXTACT_OPENCASCADE_${name}}")
+  endforeach()
+endif()
+
 # Headers that draw letters in the program, and read PNG in the tests.
 if(VOXTACT_BUILD_APP OR VOXTACT_BUILD_TESTS)
   find_path(VOXTACT_STB_INCLUDE_DIR stb_truetype.h PATH_SUFFIXES stb REQUIRED)

@@ -160,10 +160,16 @@ struct OpacityFacts {
 [[nodiscard]] VOXTACT_API Result<OpacityFacts> checkOpacity(const TransferFunctionDesc& desc, const ValueRange& data,
                                                             double threshold = kDefaultThreshold);
 
-/// A triangle mesh that the caller owns, in object space. Three doubles per vertex, three indices per triangle.
+/// mm: default of the deflection with which curved surfaces are triangulated.
+inline constexpr double kDefaultDeflection = 0.01;
+
+/// A triangle mesh somebody else owns, in object space. Three doubles per vertex, three indices per triangle.
 struct MeshView {
     std::span<const double> positions;      ///< x, y, z of each vertex, object space
     std::span<const std::uint32_t> indices; ///< three per triangle
+    /// Object units: no point of the curved surface that the triangles stand for is farther from them. cpu::HostEngine
+    /// answers Touch with *no* only where that surface does not touch; all other answers are about the triangles.
+    double deflection = 0;
 };
 
 /// A triangle mesh that owns its arrays.
@@ -172,9 +178,10 @@ struct MeshData {
     std::vector<std::uint32_t> indices; ///< three per triangle
     std::string name;                   ///< name of the file or builtin
     std::vector<std::string> notes;     ///< as in VolumeData
+    double deflection = 0;              ///< as in MeshView
 
-    /// Returns a view of these arrays, valid as long as they are.
-    [[nodiscard]] MeshView view() const noexcept { return {positions, indices}; }
+    /// Of these arrays; valid as long as they are.
+    [[nodiscard]] MeshView view() const noexcept { return {positions, indices, deflection}; }
 };
 
 /// An axis-aligned box.
@@ -192,14 +199,15 @@ struct MeshFacts {
     /// Object units: the largest distance between a vertex and its float form in the engines. For a mesh far from the
     /// origin the floats are relative to its centre. Certified answers hold for the given vertices.
     double rounding = 0;
+    double deflection = 0; ///< MeshView::deflection
 };
 
 /// Object units: a larger MeshFacts::rounding gives a note. 100 nm at a scale of 1.
 inline constexpr double kNotedRounding = 1e-4;
 
-/// Returns the facts of a mesh. Refuses a mesh without a triangle, arrays whose length is not a multiple of three,
-/// vertices that are NaN, infinite or beyond the range of floats, and indices out of range (the error names the first).
-/// O(vertices + triangles).
+/// Refuses a mesh with no triangle, a deflection that is negative or not finite, arrays whose length is not a multiple
+/// of three, vertices that are NaN, infinite or beyond the range of floats, and indices out of range (the first is
+/// named). O(vertices + triangles).
 [[nodiscard]] VOXTACT_API Result<MeshFacts> checkMesh(const MeshView& mesh);
 
 /// The camera of the projections `view` and `two-view`.

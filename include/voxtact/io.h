@@ -116,31 +116,34 @@ struct MeshReadOptions {
     /// RAS: x and y are negated. Empty: the space in a header of STL, OBJ, PLY or VTK (`SPACE=RAS`, as 3D Slicer writes
     /// it), else LPS. A contradicting header is refused.
     std::optional<MeshSpace> space{};
-    double scale = 1; ///< millimetres per unit of the file; positive
+    double scale = 1; ///< millimetres in a unit of the file; positive. Of STEP and IGES: in their mm
+    double deflection = kDefaultDeflection; ///< mm: STEP and IGES are triangulated with it; from 1e-6 on
 };
 
 /// Returns the note for a mesh whose MeshFacts::rounding exceeds kNotedRounding; otherwise empty.
 [[nodiscard]] VOXTACT_API std::string roundingNote(const MeshFacts& facts);
 
-/// Reads a mesh: STL (ascii, binary), OBJ, PLY (ascii, binary of either byte order), OFF, VTK's PolyData (.vtk, .vtp),
-/// glTF 2 or GLB, by the ending in any case.
+/// STL (ascii, binary), OBJ, PLY (ascii, binary of either byte order), OFF, VTK's PolyData (.vtk, .vtp), glTF 2, GLB,
+/// by the ending in any case. Node transforms are applied (a mirrored node's triangles are turned, so that outward
+/// stays outward), and so are skins and morph targets as they stand in the file; animations and hidden nodes are left
+/// out. Polygons are cut into triangles: a fan around the first corner where that stays inside, else ear by ear. All
+/// meshes of a file become one; points and lines are left out. What is left out or chosen is said in `notes`. Corners
+/// with bit-identical positions are merged (-0 is 0), vertices that no triangle uses are left out, degenerate triangles
+/// stay, in the order of the file. Coordinates are doubles from the file on; what single precision loses of them is
+/// noted. The file is read strictly: what is not understood is refused. So are files without a triangle, NaN or
+/// infinite vertices and such as no float holds, indices out of range, malformed numbers, truncated files and files
+/// that go on after what their header states (zeros and white space are noted), polygons that cross themselves, OBJ
+/// with curved surfaces or weights other than 1, VTK files of other datasets, glTF that requires an extension other
+/// than KHR_mesh_quantization, KHR_node_visibility and those about looks and lights, and a scale that is not positive
+/// and finite.
 ///
-/// glTF: applies node transforms (triangles of a mirrored node are reversed, so outward stays outward), skins and morph
-/// targets as stored; skips animations and hidden nodes. Polygons become triangles: a fan around the first corner if it
-/// stays inside, else by ear clipping. All meshes of a file become one; points and lines are skipped. `notes` lists
-/// skipped parts and choices. Corners with bit-identical positions are merged (-0 is 0), unused vertices removed;
-/// degenerate triangles stay, in the order of the file. Coordinates are doubles; a loss by single precision gives a
-/// note.
-///
-/// Refuses unknown content, files without a triangle, vertices that are NaN, infinite or beyond the range of floats,
-/// indices out of range, malformed numbers, truncated files, data after the stated end (zeros and white space give a
-/// note), self-intersecting polygons, OBJ with curved surfaces or weights other than 1, VTK files of other datasets,
-/// glTF that requires an extension other than KHR_mesh_quantization, KHR_node_visibility and those for appearance and
-/// lights, and a scale that is not positive and finite.
+/// STEP and IGES (.step, .stp, .iges, .igs): the program voxtact-step, which lies beside the library or the calling
+/// program, reads and triangulates them by OpenCASCADE, in a process of its own. Without it they are refused.
+/// MeshData::deflection bounds how far the faces of the file are from the triangles.
 [[nodiscard]] VOXTACT_API Result<MeshData> readMesh(const std::filesystem::path& path,
                                                     const MeshReadOptions& options = {});
-/// Like readMesh(path), for a file in memory. Messages use `name`; its ending selects the format. Refuses glTF that
-/// refers to other files.
+/// The same for a file in memory. Messages call it `name`, and the ending of that is the format. glTF that refers to
+/// other files is refused, and so are STEP and IGES.
 [[nodiscard]] VOXTACT_API Result<MeshData>
 readMesh(std::span<const std::byte> content, const std::filesystem::path& name, const MeshReadOptions& options = {});
 

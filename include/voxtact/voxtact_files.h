@@ -23,9 +23,10 @@ typedef struct vxt_volume_read_options {
 
 /// Unit and space of a mesh file.
 typedef struct vxt_mesh_read_options {
-    size_t struct_size; ///< sizeof this struct
-    double scale;       ///< millimetres per unit of the file; 0: 1
-    uint32_t ras;       ///< 1: RAS coordinates: x and y are negated; 0: as the file states, else LPS
+    size_t struct_size; ///< sizeof
+    double scale;       ///< millimetres in a unit of the file; 0: 1
+    uint32_t ras;       ///< 1: RAS coordinates: x and y are negated; 0: what the file says, else LPS
+    double deflection;  ///< mm: STEP and IGES are triangulated with it; 0: 0.01
 } vxt_mesh_read_options;
 
 /// Reads a volume from a file or a DICOM folder: voxtact::io::readVolume(). Null options are the defaults.

@@ -79,7 +79,8 @@ vxt_volume_view fromVolumeView(const VolumeView& view) noexcept {
 MeshView toMeshView(const vxt_mesh_view* view) {
     const vxt_mesh_view given = readStruct(view, zero<vxt_mesh_view>(), "mesh");
     return {toSpan(given.positions, times(given.vertex_count, 3, "mesh: vertices"), "mesh: positions"),
-            toSpan(given.indices, times(given.triangle_count, 3, "mesh: triangles"), "mesh: indices")};
+            toSpan(given.indices, times(given.triangle_count, 3, "mesh: triangles"), "mesh: indices"),
+            given.deflection};
 }
 
 vxt_mesh_view fromMeshView(const MeshView& view) noexcept {
@@ -88,11 +89,12 @@ vxt_mesh_view fromMeshView(const MeshView& view) noexcept {
     out.vertex_count = view.positions.size() / 3;
     out.indices = view.indices.data();
     out.triangle_count = view.indices.size() / 3;
+    out.deflection = view.deflection;
     return out;
 }
 
 vxt_mesh_facts fromFacts(const MeshFacts& facts) noexcept {
-    return {fromBox(facts.bounds), facts.vertices, facts.triangles, facts.degenerate, facts.rounding};
+    return {fromBox(facts.bounds), facts.vertices, facts.triangles, facts.degenerate, facts.rounding, facts.deflection};
 }
 
 Box toBox(const vxt_box& box) noexcept {

@@ -43,7 +43,9 @@ io::VolumeReadOptions toOptions(const vxt_volume_read_options* given) {
 
 io::MeshReadOptions toOptions(const vxt_mesh_read_options* given) {
     const vxt_mesh_read_options options = readOptions(given, zero<vxt_mesh_read_options>(), "options");
-    io::MeshReadOptions reading{.space = {}, .scale = orDefault(options.scale, 1.0)};
+    io::MeshReadOptions reading{.space = {},
+                                .scale = orDefault(options.scale, 1.0),
+                                .deflection = orDefault(options.deflection, kDefaultDeflection)};
     if (options.ras != 0) {
         reading.space = io::MeshSpace::RAS;
     }

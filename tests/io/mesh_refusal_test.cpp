@@ -24,7 +24,7 @@ TEST(MeshRefusal, Files) {
     expectRefused(io::readMesh(folder / "absent.stl"), "absent.stl': there is no such file");
     expectRefused(io::readMesh(folder.path()), "it is a folder, not a file");
     expectRefused(io::readMesh(folder.write("m.xyz", "1 2 3")),
-                  "its ending is none of .stl, .obj, .ply, .off, .vtk, .vtp, .gltf and .glb");
+                  "its ending is none of .stl, .obj, .ply, .off, .vtk, .vtp, .gltf, .glb, .step, .stp, .iges and .igs");
     for (const char* name : {"m.stl", "m.obj", "m.ply", "m.off", "m.vtk", "m.vtp", "m.gltf", "m.glb"}) {
         expectRefused(io::readMesh(folder.write(name, "")), "the file is empty", folder / name);
         expectRefused(io::readMesh(folder.write(name, "complete rubbish, no mesh at all, of some length\n")), "",

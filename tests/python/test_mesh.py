@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: MIT
 """Meshes from arrays and from the objects of other libraries."""
+import pickle
+
 import numpy as np
 import pytest
 
 import voxtact as vx
-from conftest import cube, program
+from conftest import cube, half_space, program
 
 TRIANGLES = np.array([[0, 1, 2], [1, 3, 2]])
 CORNERS = np.array([[0, 0, 0], [1, 0, 0], [0, 2, 0], [1, 2, 3.5]])
@@ -82,6 +84,28 @@ def test_files(tmp_path, knife):
         assert len(again.faces) == len(knife.faces)
     program("make", "mesh", "builtin:scalpel:300", tmp_path / "theirs.stl", cwd=tmp_path)
     np.testing.assert_array_equal(vx.read_mesh(tmp_path / "theirs.stl").vertices, vx.read_mesh(tmp_path / "mesh.stl").vertices)
+
+
+def test_curved_surfaces(tmp_path):
+    """Triangles that stand for one, as those of STEP do: what is within their deflection is no *no*."""
+    scene = vx.Scene(vx.read_volume(half_space(), axes="zyx", affine=np.eye(4), space="lps"), opacity=[(99, 0), (101, 1)])
+    flat = vx.read_mesh((CORNERS[:, [2, 0, 1]] + [5.8, 3, 3], TRIANGLES[:1]))
+    for deflection, undecided in ((0, False), (0.2, False), (0.4, True)):
+        # As pickle makes it.
+        make, (vertices, faces, name, notes, _) = flat.__reduce__()
+        mesh = pickle.loads(pickle.dumps(make(vertices, faces, name, notes, deflection)))
+        assert mesh.deflection == deflection
+        answer = scene.touch(mesh)
+        assert (answer.touches.any(), answer.undecided.any()) == (False, undecided)
+        assert scene.touch([(mesh, np.eye(4))]).undecided.any() == undecided
+        assert vx.read_mesh(mesh, scale=2).deflection == 2 * deflection
+    (tmp_path / "m.step").write_text("ISO-10303-21;\nEND-ISO-10303-21;\n")
+    with pytest.raises(vx.FormatError, match="voxtact-step|OpenCASCADE|Parsing"):
+        vx.read_mesh(tmp_path / "m.step")
+    with pytest.raises(vx.InvalidArgumentError, match="the deflection -1 mm is not a number from 1e-06 mm on"):
+        vx.read_mesh(tmp_path / "m.step", deflection=-1)
+    with pytest.raises(vx.InvalidArgumentError, match="deflection"):
+        vx.read_mesh(tmp_path / "m.step", deflection=0)
 
 
 def test_trimesh():

@@ -46,7 +46,8 @@ bool isMesh(const std::string& source) {
         }
     }
     std::error_code ignored;
-    const auto endings = {".stl", ".obj", ".ply", ".off", ".vtk", ".vtp", ".gltf", ".glb"};
+    const auto endings = {".stl",  ".obj", ".ply",  ".off", ".vtk",  ".vtp",
+                          ".gltf", ".glb", ".step", ".stp", ".iges", ".igs"};
     return !lowered.starts_with("builtin:") && !std::filesystem::is_directory(source, ignored) &&
            std::any_of(endings.begin(), endings.end(), [&](const char* ending) { return lowered.ends_with(ending); });
 }

@@ -106,7 +106,7 @@ Result<void> checkVolumesAreThere(const std::vector<std::string>& sources) {
 
 Result<MeshData> loadMesh(const std::string& source, const MeshOptions& options) {
     const bool builtin = source.starts_with(kBuiltin);
-    io::MeshReadOptions reading{.space = {}, .scale = options.scale};
+    io::MeshReadOptions reading{.space = {}, .scale = options.scale, .deflection = options.deflection};
     if (!options.space.empty()) {
         reading.space = options.space == "ras" ? io::MeshSpace::RAS : io::MeshSpace::LPS;
     }

@@ -187,7 +187,9 @@ void addResampleOption(CLI::App& parser, bool& resample) {
 }
 
 void addMeshOptions(CLI::App& parser, MeshOptions& options, bool required) {
-    parser.add_option("--mesh", options.sources, "mesh: STL, OBJ, PLY, OFF, glTF, builtin:NAME; repeatable")
+    parser
+        .add_option("--mesh", options.sources,
+                    "mesh: STL, OBJ, PLY, OFF, VTK, glTF, STEP, IGES, builtin:NAME; repeatable")
         ->type_name("PATH")
         ->check(refuseEmpty)
         ->allow_extra_args(false)
@@ -196,7 +198,9 @@ void addMeshOptions(CLI::App& parser, MeshOptions& options, bool required) {
     addNumber(
         parser, "--mesh-scale", [&options](double scale) { options.scale = scale; },
         "millimetres per unit of mesh files", [](double scale) { return scale > 0; }, "above 0", "1");
+    addFact(parser, factOf("scene", "deflection"), [&options](double mm) { options.deflection = mm; });
     setRare(parser, "--mesh-scale");
+    setRare(parser, "--deflection");
 }
 
 namespace {

@@ -37,6 +37,7 @@ struct MeshOptions {
     std::vector<std::string> sources; ///< paths, or builtin:NAME
     std::string space;                ///< lps or ras; empty: what the file says, else LPS
     double scale = 1;
+    double deflection = kDefaultDeflection; ///< mm; of STEP and IGES
 };
 
 struct TransferFunctionOptions {

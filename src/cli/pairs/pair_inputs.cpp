@@ -139,6 +139,11 @@ Result<PairInputs> readPairInputs(const PairOptions& options) {
     for (const std::string& source : options.jobs.meshes) {
         Result<MeshData> mesh = loadMesh(source, options.meshes);
         VOXTACT_TRY(mesh);
+        if (mesh->deflection > 0 && options.question == Question::Touch && !isForHost(options)) {
+            return badArgument(
+                "--mesh: the touch of " + forMessage(fileNameOf(source)) +
+                ", a curved surface, is answered by the host engine; leave out --on device and --device");
+        }
         if (options.question == Question::Overlap || options.solid) {
             VOXTACT_TRY(makeSolid(options, source, *mesh));
         }

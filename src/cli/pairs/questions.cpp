@@ -13,7 +13,8 @@ namespace {
 
 constexpr const char* kTouchFooter =
     R"(Output: pose,mesh,volume,touch,x,y,z,triangle,label
-  touch     0 no, 1 yes: both proven; 2 undecided: rounding decides
+  touch     0 no, 1 yes: both proven; 2 undecided: rounding decides, or the
+            deflection of STEP and IGES, whose yes is about the triangles
   x,y,z     witness point: opaque, on the triangle or within --margin of it, to
             rounding; by the host engine, without --uncertainty
   label     of the label map at that point

@@ -34,6 +34,8 @@ struct Fact {
 
 inline constexpr std::array kFacts{
     Fact{"scene", "opacity_threshold", "", 0, 1, kDefaultThreshold, "opacity at which a value is opaque"},
+    Fact{"scene", "deflection", "mm", 1e-6, kInfinity, kDefaultDeflection,
+         "STEP, IGES: distance of triangles from the surface, mm"},
     Fact{"touch", "margin", "mm", 0, kInfinity, {}, "is anything opaque within this distance, mm?"},
     Fact{"touch", "uncertainty_distance", "mm", 0, kInfinity, {}, ""},
     Fact{"touch", "uncertainty_angle", "degrees", 0, 180, {}, ""},

@@ -32,6 +32,9 @@ Result<void> checkArrays(const MeshView& mesh) {
     if (mesh.indices.empty()) {
         return refuse("the mesh has no triangles");
     }
+    if (!(mesh.deflection >= 0) || !std::isfinite(mesh.deflection)) {
+        return refuse("the deflection of the mesh is not a number from 0 mm on");
+    }
     constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max() / 3;
     if (mesh.positions.size() / 3 > kMost || mesh.indices.size() / 3 > kMost) {
         return refuse("the mesh has more than " + std::to_string(kMost) + " vertices or triangles");
@@ -87,6 +90,7 @@ Result<CheckedMesh> checkedMesh(const MeshView& mesh) {
         Recentred floats = recentred(mesh.positions);
         facts->degenerate = degenerateOf(floats.positions, mesh.indices);
         facts->rounding = floats.origin.rounding;
+        facts->deflection = mesh.deflection;
         return CheckedMesh{*facts, floats.origin, std::move(floats.positions)};
     });
 }

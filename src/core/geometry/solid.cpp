@@ -117,6 +117,7 @@ Result<FilledMesh> fillHoles(const MeshView& mesh) {
     return guard([&]() -> Result<FilledMesh> {
         VOXTACT_TRY(checkMesh(mesh));
         FilledMesh filled;
+        filled.mesh.deflection = mesh.deflection;
         filled.mesh.positions.assign(mesh.positions.begin(), mesh.positions.end());
         filled.mesh.indices.assign(mesh.indices.begin(), mesh.indices.end());
         const SurfaceHoles holes = holesOf(mesh);

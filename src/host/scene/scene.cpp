@@ -101,7 +101,7 @@ Result<void> Mesh::update(std::span<const double> positions) {
                           std::to_string(impl_->facts.vertices) + " vertices of three");
         }
         const std::vector<std::uint32_t> indices = impl_->indices();
-        const Result<CheckedMesh> mesh = checkedMesh({positions, indices});
+        const Result<CheckedMesh> mesh = checkedMesh({positions, indices, impl_->facts.deflection});
         VOXTACT_TRY(mesh);
         impl_->bend(mesh->positions, mesh->facts, mesh->origin);
         return {};

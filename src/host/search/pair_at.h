@@ -33,7 +33,9 @@ struct PairAt {
     [[nodiscard]] const VolumeImpl& volume() const { return item.volume->impl(); }
     [[nodiscard]] const MeshImpl& mesh() const { return shape != nullptr ? *shape : item.mesh->impl(); }
 
-    /// Decides whether the pair touches, as the projection `certified` does. Sets `point` if it certainly does.
+    /// How far the surface that the mesh stands for may be from its triangles, mm.
+    [[nodiscard]] double deflection() const;
+    /// Whether it touches, as the projection `certified` says. `point` is set where it certainly does.
     [[nodiscard]] CertifiedTally touch(std::optional<TouchPoint>& point) const;
     /// The closest points. `sweep`: where else the mesh may be; in the world's coordinates. `from`: as for
     /// ClosestSearch.

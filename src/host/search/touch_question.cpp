@@ -10,6 +10,7 @@
 #include "host/overlap/enclosed.h"
 #include "host/search/opaque_next_to.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace voxtact::cpu {
@@ -29,7 +30,13 @@ Result<void> checkTouch(const Touch& question) {
     return checkFact(factOf("count", "resolution"), question.resolution);
 }
 
-/// A touch is within every margin, and cheap to test.
+bool isCurved(const Batch& batch) {
+    return std::ranges::any_of(batch.items,
+                               [](const BatchItem& item) { return item.mesh->impl().facts.deflection > 0; });
+}
+
+/// What touches is within every margin, and that is soon known. No: the surface that the triangles stand for is farther
+/// than the margin, too. Yes is about the triangles.
 void decide(const PairAt& at, const Touch& question, ThreadMemory& memory, PairTouch& out) {
     std::optional<TouchPoint> point;
     const CertifiedTally touch = at.touch(point);
@@ -40,12 +47,13 @@ void decide(const PairAt& at, const Touch& question, ThreadMemory& memory, PairT
         }
         return;
     }
-    if (question.margin == 0) {
+    const double reach = question.margin + at.deflection();
+    if (reach == 0) {
         return;
     }
     const Found found = at.search(memory, {.tolerance = 0,
-                                           .maximum = std::nextafter(question.margin, kInfinity),
-                                           .enough = question.margin,
+                                           .maximum = std::nextafter(reach, kInfinity),
+                                           .enough = question.margin > 0 ? question.margin : reach,
                                            .finest = kDefaultTolerance / 4,
                                            .mostSteps = question.maxSteps});
     if (found.hi <= question.margin) {
@@ -53,7 +61,7 @@ void decide(const PairAt& at, const Touch& question, ThreadMemory& memory, PairT
         if (question.witness) {
             out.witness = {fromGlm(found.inVolume + at.part.space.middle), memory.mesh.mesh().numbers[found.triangle]};
         }
-    } else if (found.lo <= question.margin) {
+    } else if (found.lo <= reach) {
         out.touch = Verdict::Undecided;
     }
 }
@@ -98,7 +106,7 @@ Result<TouchAnswer> HostEngine::ask(const Touch& question, const Batch& batch) {
             VOXTACT_TRY(checkSolids(*this, batch));
         }
         Result<TouchAnswer> answer = question.uncertainty ? touchAround(*impl_, question, batch)
-                                     : question.witness || question.margin > 0
+                                     : question.witness || question.margin > 0 || isCurved(batch)
                                          ? touchPairs(*impl_, question, batch)
                                          : touchWithoutWitness(*impl_, question, batch);
         if (answer.ok() && question.solid) {

@@ -19,6 +19,7 @@ struct MeshSource {
     std::string_view content;
     /// The bytes of a file that this one refers to, by its path beside this one (glTF). None: such files are refused.
     std::function<Result<std::string>(const std::filesystem::path& beside)> other = {};
+    double deflection = kDefaultDeflection; ///< of STEP and IGES; units of the file's mm
 };
 
 /// What a mesh file says, in its own coordinates and order. What a reader returns is sound: every corner is a vertex,
@@ -28,6 +29,7 @@ struct MeshFile {
     std::vector<std::uint32_t> corners;   ///< vertices of one face after the other
     std::vector<std::uint32_t> faceSizes; ///< corners of each face
     std::uint64_t pointsAndLines = 0;     ///< left out
+    double deflection = 0;                ///< as MeshData::deflection
     bool saysLps = false;                 ///< a header has SPACE=LPS
     bool saysRas = false;
     std::vector<std::string> notes;
@@ -54,6 +56,9 @@ void addStrip(std::span<const std::uint32_t> strip, MeshFile& file);
 [[nodiscard]] Result<MeshFile> readGltf(const MeshSource& source);
 [[nodiscard]] Result<MeshFile> readVtk(const MeshSource& source);
 [[nodiscard]] Result<MeshFile> readVtp(const MeshSource& source);
+/// STEP and IGES, by voxtact-step.
+[[nodiscard]] Result<MeshFile> readCad(const MeshSource& source);
+[[nodiscard]] bool isCad(const std::filesystem::path& path);
 /// By the ending.
 [[nodiscard]] Result<MeshFile> readMeshFile(const MeshSource& source);
 

@@ -3,6 +3,7 @@
 #include "core/base/refuse.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
+#include "core/facts/facts.h"
 #include "io/errors.h"
 #include "io/mesh/mesh_file.h"
 #include "io/mesh/polygon.h"
@@ -10,9 +11,11 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <iomanip>
 #include <limits>
 #include <optional>
 #include <span>
+#include <sstream>
 #include <unordered_map>
 
 namespace voxtact::io {
@@ -144,10 +147,21 @@ class Gatherer {
     std::unordered_map<std::array<std::uint64_t, 3>, std::uint32_t, PositionHash> vertices_;
 };
 
-Result<MeshData> makeMesh(const MeshSource& source, const MeshReadOptions& options) {
+/// Rounded up to three digits.
+std::string deflectionNote(double deflection) {
+    const double digit = std::pow(10, std::floor(std::log10(deflection)) - 2);
+    std::ostringstream text;
+    text << std::setprecision(3) << std::ceil(deflection / digit) * digit;
+    return "triangles are up to " + text.str() +
+           " mm off the curved surface: touch allows for this, other answers do not";
+}
+
+Result<MeshData> makeMesh(MeshSource source, const MeshReadOptions& options) {
     if (!(options.scale > 0) || !std::isfinite(options.scale)) {
         return refuse("the scale of a mesh must be positive and finite");
     }
+    VOXTACT_TRY(checkFact(factOf("scene", "deflection"), options.deflection));
+    source.deflection = options.deflection / options.scale;
     Result<MeshFile> file = readMeshFile(source);
     VOXTACT_TRY(file);
     if (file->faceSizes.empty()) {
@@ -158,6 +172,10 @@ Result<MeshData> makeMesh(const MeshSource& source, const MeshReadOptions& optio
     MeshData mesh;
     mesh.name = source.path.filename().string();
     mesh.notes = std::move(file->notes);
+    mesh.deflection = file->deflection * options.scale;
+    if (mesh.deflection > kNotedRounding) {
+        mesh.notes.push_back(deflectionNote(mesh.deflection));
+    }
     if (file->pointsAndLines != 0) {
         mesh.notes.push_back(std::to_string(file->pointsAndLines) + " points or lines left out");
     }
@@ -231,8 +249,12 @@ Result<MeshFile> readMeshFile(const MeshSource& source) {
     if (ending == ".vtp") {
         return readVtp(source);
     }
+    if (isCad(source.path)) {
+        return readCad(source);
+    }
     return cannotRead(source.path,
-                      "its ending is none of .stl, .obj, .ply, .off, .vtk, .vtp, .gltf and .glb; convert it");
+                      "its ending is none of .stl, .obj, .ply, .off, .vtk, .vtp, .gltf, .glb, .step, .stp, .iges and "
+                      ".igs; convert it");
 }
 
 std::string roundingNote(const MeshFacts& facts) {

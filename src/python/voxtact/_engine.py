@@ -42,6 +42,11 @@ def _first_piece(request: Request, cost: int, most: int) -> int:
     return int(max(min(_FIRST_TRIANGLES // (request.max_triangles * cost), most), 1))
 
 
+def _is_curved(meshes: Any) -> bool:
+    """Whether triangles stand for a curved surface, of which a device knows nothing."""
+    return any(mesh.deflection for mesh in ([meshes] if type(meshes) is Mesh else [one[0] for one in meshes]))
+
+
 def _check_threshold(threshold: float) -> None:
     if not 0 <= threshold <= 1:
         refuse(f"threshold is {threshold:g}; it must be from 0 to 1")
@@ -308,7 +313,7 @@ class Scene:
 
     def touch(self, meshes: Any, poses: Any, options: TouchOptions, progress: Tell) -> Tables:
         question = self._touch_question(options)
-        if self._device is not None and question.is_plain:
+        if self._device is not None and question.is_plain and not _is_curved(meshes):
             return self.count(meshes, poses, question.count_options, progress)
         if (question.is_plain and progress is None and type(meshes) is Mesh and meshes.triangles <= FEW_TRIANGLES
                 and poses.shape == (4, 4)):

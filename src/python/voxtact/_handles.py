@@ -171,13 +171,14 @@ class Mesh:
 
     __slots__ = ("view", "vertices", "faces", "name", "notes", "facts", "triangles", "_on_host", "_filled", "__weakref__")
 
-    def __init__(self, vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.uint32], name: str, notes: list[str]) -> None:
+    def __init__(self, vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.uint32], name: str, notes: list[str],
+                 deflection: float = 0.0) -> None:
         self.vertices = read_only(vertices)
         self.faces = read_only(faces)
         self.name = name
         self.notes = notes
         self.view = struct("mesh_view", positions=pointer("double", vertices), vertex_count=len(vertices),
-                           indices=pointer("uint32_t", faces), triangle_count=len(faces))
+                           indices=pointer("uint32_t", faces), triangle_count=len(faces), deflection=deflection)
         self.facts = ffi.new("vxt_mesh_facts*")
         guarded(lambda: check(lib.vxt_check_mesh(self.view, self.facts)))
         self.triangles = len(faces)
@@ -190,13 +191,14 @@ class Mesh:
         check(lib.vxt_mesh_data_view(data, view))
         return cls(shown(view.positions, (view.vertex_count, 3), np.float64, data),
                    shown(view.indices, (view.triangle_count, 3), np.uint32, data), text_of(lib.vxt_mesh_data_name(data)),
-                   texts_of(lambda index: lib.vxt_mesh_data_note(data, index)))
+                   texts_of(lambda index: lib.vxt_mesh_data_note(data, index)), view.deflection)
 
     @classmethod
-    def read(cls, path: bytes, ras: bool, scale: float) -> Mesh:
+    def read(cls, path: bytes, ras: bool, scale: float, deflection: float) -> Mesh:
         if scale == 0:
             refuse(f"scale={scale} must be positive and finite: mm in a unit of the vertices")
-        return cls._of(guarded(made, "mesh_data", lib.vxt_read_mesh, path, struct("mesh_read_options", ras=ras, scale=scale)))
+        return cls._of(guarded(made, "mesh_data", lib.vxt_read_mesh, path, 
+                              struct("mesh_read_options", ras=ras, scale=scale, deflection=deflection)))
 
     @classmethod
     def builtin(cls, name: bytes) -> Mesh:
@@ -204,10 +206,10 @@ class Mesh:
 
     @classmethod
     def make(cls, vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.uint32], name: bytes,
-             notes: Sequence[bytes]) -> Mesh:
-        """Creates a mesh from copies of the arrays."""
+             notes: Sequence[bytes], deflection: float) -> Mesh:
+        """Of copies of the arrays."""
         mesh = cls(np.array(vertices, np.float64, order="C"), np.array(faces, np.uint32, order="C"), _decoded(name),
-                   [_decoded(note) for note in notes])
+                   [_decoded(note) for note in notes], deflection)
         note = text_of(lib.vxt_mesh_note(mesh.facts))
         if note and note not in mesh.notes:
             mesh.notes.append(note)
@@ -220,6 +222,10 @@ class Mesh:
     @property
     def degenerate(self) -> int:
         return int(self.facts.degenerate)
+
+    @property
+    def deflection(self) -> float:
+        return float(self.view.deflection)
 
     @property
     def on_host(self) -> CData:
@@ -239,7 +245,7 @@ class Mesh:
             view = struct("mesh_view")
             check(lib.vxt_mesh_data_view(data, view))
             closed = Mesh(shown(view.positions, (view.vertex_count, 3), np.float64, data),
-                          shown(view.indices, (view.triangle_count, 3), np.uint32, data), self.name, list(self.notes))
+                          shown(view.indices, (view.triangle_count, 3), np.uint32, data), self.name, list(self.notes), view.deflection)
             kept = self._filled.setdefault("mesh", (closed, float(area[0])))
         return kept
 

@@ -59,6 +59,12 @@ class Mesh:
         return self._core.degenerate
 
     @property
+    def deflection(self) -> float:
+        """Of a mesh from STEP or IGES: no point of the curved surface is farther from the triangles, mm; else 0.
+        `Scene.touch` says no only where that surface does not touch; all other answers are about the triangles."""
+        return self._core.deflection
+
+    @property
     def name(self) -> str:
         """Name of the file or source."""
         return self._core.name
@@ -78,17 +84,18 @@ class Mesh:
         return f"<voxtact.Mesh {self.name!r}: {len(self.faces)} triangles, {len(self.vertices)} vertices, {size} mm>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _mesh_again, (self.vertices, self.faces, self.name, self.notes)
+        return _mesh_again, (self.vertices, self.faces, self.name, self.notes, self.deflection)
 
 
-def _mesh_again(vertices: npt.NDArray[Any], faces: npt.NDArray[Any], name: str, notes: tuple[str, ...]) -> Mesh:
-    """Restores a mesh from a pickle."""
+def _mesh_again(vertices: npt.NDArray[Any], faces: npt.NDArray[Any], name: str, notes: tuple[str, ...],
+                deflection: float = 0.0) -> Mesh:
+    """What pickle calls."""
     return Mesh._of(core.Mesh.make(vertices, faces, encoded_text(name, "name"),
-                                   [encoded_text(note, "a note") for note in notes]))
+                                   [encoded_text(note, "a note") for note in notes], deflection))
 
 
 def _mesh_of_arrays(vertices: Any, faces: Any, space: Space, scale: float, name: str,
-                    notes: Optional[list[str]] = None) -> Mesh:
+                    notes: Optional[list[str]] = None, deflection: float = 0.0) -> Mesh:
     said = [] if notes is None else notes
     places = array_of(vertices, "vertices")
     corners = array_of(faces, "faces")
@@ -112,7 +119,7 @@ def _mesh_of_arrays(vertices: Any, faces: Any, space: Space, scale: float, name:
         bad = int(np.argmin(within))
         raise InvalidArgumentError(f"vertex {bad} is {places[bad].tolist()}, which no float32 holds")
     return Mesh._of(core.Mesh.make(np.ascontiguousarray(exact), np.ascontiguousarray(corners, dtype=np.uint32), encoded_text(name, "name"),
-                                   [encoded_text(note, "a note") for note in said]))
+                                   [encoded_text(note, "a note") for note in said], scale * deflection))
 
 
 def _of_quads(corners: npt.NDArray[Any], points: npt.NDArray[Any]) -> npt.NDArray[Any]:
@@ -193,33 +200,38 @@ def _of_vtk_mesh(mesh: Any, space: Space, scale: float) -> Mesh:
     return _mesh_of_arrays(vtk_to_numpy(mesh.GetPoints().GetData()), faces, space, scale, "vtkPolyData", notes)
 
 
-def read_mesh(source: Any, *, space: Optional[Space] = None, scale: float = 1.0) -> Mesh:
-    """Reads a mesh from a file, from arrays, or from a mesh of another library.
+def read_mesh(source: Any, *, space: Optional[Space] = None, scale: float = 1.0, deflection: float = 0.01) -> Mesh:
+    """A mesh from a file, from arrays, or from a mesh of another library.
 
     source
-        - a path: STL, OBJ, PLY, OFF, glTF or GLB; ``"builtin:scalpel"`` and the other names of the program's builtins
+        - a path: STL, OBJ, PLY, OFF, glTF or GLB, and STEP or IGES where the program voxtact-step lies beside the
+          library or Python; ``"builtin:scalpel"`` and the other names of the program's builtins
         - ``(vertices, faces)``: (V,3) numbers and (T,3) whole numbers
         - a trimesh (`.vertices`, `.faces`), a meshio mesh (triangles and quads), or a vtkPolyData
 
-    space: of the vertices, default "lps". "ras" negates x and y; the mesh is always LPS. A volume from an array with
-    `affine` is "ras" by default: if a scene combines both defaults, a warning asks for `space`.
-    scale: millimetres per unit of the vertices; 1000 for metres.
+    space: of the vertices, "lps" unless it is said. "ras" negates x and y; what comes out is always LPS. An array with
+    `affine` is "ras" unless it is said: where both meet in a scene and neither was said, a warning asks for it.
+    scale: millimetres in a unit of the vertices; 1000 for metres.
+    deflection: mm: STEP and IGES are triangulated with it. `Mesh.deflection` is what was reached.
 
     Vertices are float64; `Mesh.notes` reports a loss above 0.0001 by single precision. Raises FileError, FormatError,
     and InvalidArgumentError, which names the vertex or face.
     """
     scale = number(scale, "scale")
+    deflection = number(deflection, "deflection")
+    if deflection == 0:
+        raise InvalidArgumentError("deflection=0.0 is not above 0 mm")
     assumed = space is None
     space = checked_space(space or "lps", "space")
     if isinstance(source, Mesh):
         if space != "lps" or scale != 1.0:
-            return _mesh_of_arrays(source.vertices, source.faces, space, scale, source.name)
+            return _mesh_of_arrays(source.vertices, source.faces, space, scale, source.name, deflection=source.deflection)
         return source
     if isinstance(source, (str, bytes, os.PathLike)):
         if isinstance(source, str) and source.startswith(BUILTIN):
             mesh = Mesh._of(core.Mesh.builtin(encoded_text(source[len(BUILTIN):], "the name of the builtin")))
             return read_mesh(mesh, space=space, scale=scale)
-        return Mesh._of(core.Mesh.read(encoded(source), space == "ras", scale))
+        return Mesh._of(core.Mesh.read(encoded(source), space == "ras", scale, deflection))
     if isinstance(source, (tuple, list)) and len(source) == 2:
         mesh = _mesh_of_arrays(source[0], source[1], space, scale, "arrays")
         mesh._assumed = assumed

@@ -16,7 +16,8 @@ namespace voxtact::view {
 
 namespace {
 
-constexpr std::array<std::string_view, 8> kMeshEndings{".stl", ".obj", ".ply", ".off", ".vtk", ".vtp", ".gltf", ".glb"};
+constexpr std::array<std::string_view, 12> kMeshEndings{".stl",  ".obj", ".ply",  ".off", ".vtk",  ".vtp",
+                                                        ".gltf", ".glb", ".step", ".stp", ".iges", ".igs"};
 
 Result<void> openFunction(const std::filesystem::path& path, State& state) {
     const Result<std::vector<ControlPoint>> points = io::readTransferFunction(path);

@@ -12,8 +12,8 @@ namespace voxtact::view {
 /// In lower case, with its dot.
 [[nodiscard]] std::string endingOf(const std::filesystem::path& path);
 
-/// By the ending: STL, OBJ, PLY, OFF, glTF and GLB are meshes, .txt are poses, .json is a session if marked so, else a
-/// transfer function. All others, and folders, are volumes. Refuses an unreadable .json.
+/// By the ending: STL, OBJ, PLY, OFF, VTK, glTF, STEP and IGES are meshes, .txt are poses, .json is a session where it
+/// says so and else a transfer function. All else is a volume, folders too. Refuses a .json that cannot be read.
 [[nodiscard]] Result<FileKind> kindOfFile(const std::filesystem::path& path);
 
 /// Poses and transfer functions are commands that undo takes back. Of a volume, a mesh or a session only the wish is
