@@ -160,15 +160,15 @@ struct OpacityFacts {
 [[nodiscard]] VOXTACT_API Result<OpacityFacts> checkOpacity(const TransferFunctionDesc& desc, const ValueRange& data,
                                                             double threshold = kDefaultThreshold);
 
-/// mm: default of the deflection with which curved surfaces are triangulated.
+/// Default deflection of the triangulation of curved surfaces, mm.
 inline constexpr double kDefaultDeflection = 0.01;
 
-/// A triangle mesh somebody else owns, in object space. Three doubles per vertex, three indices per triangle.
+/// A triangle mesh that the caller owns, in object space. Three doubles per vertex, three indices per triangle.
 struct MeshView {
     std::span<const double> positions;      ///< x, y, z of each vertex, object space
     std::span<const std::uint32_t> indices; ///< three per triangle
-    /// Object units: no point of the curved surface that the triangles stand for is farther from them. cpu::HostEngine
-    /// answers Touch with *no* only where that surface does not touch; all other answers are about the triangles.
+    /// Maximum distance of the curved surface from the triangles that approximate it, object units. cpu::HostEngine
+    /// answers Touch with *no* only if that surface does not touch; all other answers are about the triangles.
     double deflection = 0;
 };
 
@@ -180,7 +180,7 @@ struct MeshData {
     std::vector<std::string> notes;     ///< as in VolumeData
     double deflection = 0;              ///< as in MeshView
 
-    /// Of these arrays; valid as long as they are.
+    /// Returns a view of these arrays, valid as long as they are.
     [[nodiscard]] MeshView view() const noexcept { return {positions, indices, deflection}; }
 };
 
@@ -205,9 +205,9 @@ struct MeshFacts {
 /// Object units: a larger MeshFacts::rounding gives a note. 100 nm at a scale of 1.
 inline constexpr double kNotedRounding = 1e-4;
 
-/// Refuses a mesh with no triangle, a deflection that is negative or not finite, arrays whose length is not a multiple
-/// of three, vertices that are NaN, infinite or beyond the range of floats, and indices out of range (the first is
-/// named). O(vertices + triangles).
+/// Returns the facts of a mesh. Refuses a mesh without a triangle, a deflection that is negative or not finite, arrays
+/// whose length is not a multiple of three, vertices that are NaN, infinite or beyond the range of floats, and indices
+/// out of range (the error names the first). O(vertices + triangles).
 [[nodiscard]] VOXTACT_API Result<MeshFacts> checkMesh(const MeshView& mesh);
 
 /// The camera of the projections `view` and `two-view`.

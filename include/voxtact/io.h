@@ -61,17 +61,16 @@ inline constexpr double kMaxShear = 0.1;
 /// sform gives a note; an sform with a shear above kMaxShear is refused. Lengths in metres and micrometres become
 /// millimetres. NRRD and MetaImage: shears are kept and give a note.
 ///
-/// Refuses 2D, 4D with more than one image unless it is chosen, RGB, complex and vector images, empty images, NaN and
-/// infinite voxels (the first is named), places that are not finite, singular directions, truncated and damaged files
-/// (checksums of compressed data are verified), and DICOM folders with several series unless one is chosen, fewer than
-/// 2 slices, mosaics, missing slices, uneven gaps and a tilted gantry unless they are resampled, and files that end in
-/// .dcm and are none. Memory is bounded by what the file holds, whatever its header claims; compressed, deflate packs
-/// up to 1032 bytes into one.
+/// Refuses 2D images, 4D without a chosen image, RGB, complex, vector and empty images, NaN and infinite voxels (the
+/// error names the first), positions that are not finite, singular directions, and truncated and damaged files
+/// (checksums of compressed data are verified). Refuses DICOM folders with several series unless one is chosen, fewer
+/// than 2 slices, mosaics, invalid .dcm files, and, unless they are resampled, missing slices, uneven gaps and a tilted
+/// gantry. Memory is bounded by the size of the file, whatever its header claims; deflate expands at most 1032-fold.
 [[nodiscard]] VOXTACT_API Result<VolumeData> readVolume(const std::filesystem::path& path,
                                                         const VolumeReadOptions& options = {});
-/// True if VolumeReadOptions::resample changed the voxels of a volume; its notes say how.
+/// Returns whether VolumeReadOptions::resample changed the voxels of a volume; its notes say how.
 [[nodiscard]] VOXTACT_API bool wasResampled(const VolumeData& volume) noexcept;
-/// The same from one file's bytes in memory; the ending of `name` says the format.
+/// Like readVolume(path), from the bytes of one file; the ending of `name` selects the format.
 [[nodiscard]] VOXTACT_API Result<VolumeData> readVolume(std::string_view name, std::span<const std::byte> content,
                                                         const VolumeReadOptions& options = {});
 
@@ -116,34 +115,36 @@ struct MeshReadOptions {
     /// RAS: x and y are negated. Empty: the space in a header of STL, OBJ, PLY or VTK (`SPACE=RAS`, as 3D Slicer writes
     /// it), else LPS. A contradicting header is refused.
     std::optional<MeshSpace> space{};
-    double scale = 1; ///< millimetres in a unit of the file; positive. Of STEP and IGES: in their mm
-    double deflection = kDefaultDeflection; ///< mm: STEP and IGES are triangulated with it; from 1e-6 on
+    double scale = 1; ///< millimetres per unit of the file, for STEP and IGES per mm; positive
+    double deflection = kDefaultDeflection; ///< of the triangulation of STEP and IGES, mm; at least 1e-6
 };
 
 /// Returns the note for a mesh whose MeshFacts::rounding exceeds kNotedRounding; otherwise empty.
 [[nodiscard]] VOXTACT_API std::string roundingNote(const MeshFacts& facts);
 
-/// STL (ascii, binary), OBJ, PLY (ascii, binary of either byte order), OFF, VTK's PolyData (.vtk, .vtp), glTF 2, GLB,
-/// by the ending in any case. Node transforms are applied (a mirrored node's triangles are turned, so that outward
-/// stays outward), and so are skins and morph targets as they stand in the file; animations and hidden nodes are left
-/// out. Polygons are cut into triangles: a fan around the first corner where that stays inside, else ear by ear. All
-/// meshes of a file become one; points and lines are left out. What is left out or chosen is said in `notes`. Corners
-/// with bit-identical positions are merged (-0 is 0), vertices that no triangle uses are left out, degenerate triangles
-/// stay, in the order of the file. Coordinates are doubles from the file on; what single precision loses of them is
-/// noted. The file is read strictly: what is not understood is refused. So are files without a triangle, NaN or
-/// infinite vertices and such as no float holds, indices out of range, malformed numbers, truncated files and files
-/// that go on after what their header states (zeros and white space are noted), polygons that cross themselves, OBJ
-/// with curved surfaces or weights other than 1, VTK files of other datasets, glTF that requires an extension other
-/// than KHR_mesh_quantization, KHR_node_visibility and those about looks and lights, and a scale that is not positive
-/// and finite.
+/// Reads a mesh: STL (ascii, binary), OBJ, PLY (ascii, binary of either byte order), OFF, VTK's PolyData (.vtk, .vtp),
+/// glTF 2 or GLB, by the ending in any case.
 ///
-/// STEP and IGES (.step, .stp, .iges, .igs): the program voxtact-step, which lies beside the library or the calling
-/// program, reads and triangulates them by OpenCASCADE, in a process of its own. Without it they are refused.
-/// MeshData::deflection bounds how far the faces of the file are from the triangles.
+/// glTF: applies node transforms (triangles of a mirrored node are reversed, so outward stays outward), skins and morph
+/// targets as stored; skips animations and hidden nodes. Polygons become triangles: a fan around the first corner if it
+/// stays inside, else by ear clipping. All meshes of a file become one; points and lines are skipped. `notes` lists
+/// skipped parts and choices. Corners with bit-identical positions are merged (-0 is 0), unused vertices removed;
+/// degenerate triangles stay, in the order of the file. Coordinates are doubles; a loss by single precision gives a
+/// note.
+///
+/// Refuses unknown content, files without a triangle, vertices that are NaN, infinite or beyond the range of floats,
+/// indices out of range, malformed numbers, truncated files, data after the stated end (zeros and white space give a
+/// note), self-intersecting polygons, OBJ with curved surfaces or weights other than 1, VTK files of other datasets,
+/// glTF that requires an extension other than KHR_mesh_quantization, KHR_node_visibility and those for appearance and
+/// lights, and a scale that is not positive and finite.
+///
+/// STEP and IGES (.step, .stp, .iges, .igs): the program voxtact-step reads and triangulates them with OpenCASCADE in a
+/// separate process. It must be in the folder of the library or of the calling program; otherwise they are refused.
+/// MeshData::deflection bounds the distance of the file's faces from the triangles.
 [[nodiscard]] VOXTACT_API Result<MeshData> readMesh(const std::filesystem::path& path,
                                                     const MeshReadOptions& options = {});
-/// The same for a file in memory. Messages call it `name`, and the ending of that is the format. glTF that refers to
-/// other files is refused, and so are STEP and IGES.
+/// Like readMesh(path), for a file in memory. Messages use `name`; its ending selects the format. Refuses STEP, IGES,
+/// and glTF that refers to other files.
 [[nodiscard]] VOXTACT_API Result<MeshData>
 readMesh(std::span<const std::byte> content, const std::filesystem::path& name, const MeshReadOptions& options = {});
 
@@ -151,30 +152,30 @@ readMesh(std::span<const std::byte> content, const std::filesystem::path& name, 
 /// to floats. Refuses what checkMesh() refuses.
 VOXTACT_API Result<void> writeMesh(const std::filesystem::path& path, const MeshView& mesh);
 
-/// How a file states poses.
+/// Notation of poses in a file.
 enum class PoseFormat {
     Matrix,          ///< matrices, in all forms of readPoses()
-    TranslationXyzw, ///< 7 numbers a line: a translation in mm and a unit quaternion x y z w
+    TranslationXyzw, ///< 7 numbers per line: a translation in mm and a unit quaternion x y z w
     TranslationWxyz, ///< a translation and w x y z
     XyzwTranslation, ///< x y z w and a translation
     WxyzTranslation, ///< w x y z and a translation
 };
-/// All formats.
+/// Returns all formats.
 [[nodiscard]] VOXTACT_API std::span<const PoseFormat> poseFormats() noexcept;
-/// "matrix", "t-xyzw", "t-wxyz", "xyzw-t" or "wxyz-t"; static lifetime.
+/// Returns "matrix", "t-xyzw", "t-wxyz", "xyzw-t" or "wxyz-t"; static lifetime.
 [[nodiscard]] VOXTACT_API const char* toString(PoseFormat format) noexcept;
-/// The format of a name; none if the name is unknown.
+/// Returns the format with a name; none if the name is unknown.
 [[nodiscard]] VOXTACT_API std::optional<PoseFormat> poseFormatFromName(std::string_view name) noexcept;
 
-/// Poses as readPoses() reads them, some at a time: in constant memory.
+/// Reads poses in parts, in constant memory, with the syntax of readPoses().
 /// Thread-safety: none; one thread at a time.
 class PoseReader {
   public:
-    /// Refuses a file that cannot be opened.
+    /// Opens a file. Refuses a file that cannot be opened.
     [[nodiscard]] VOXTACT_API static Result<PoseReader> open(const std::filesystem::path& path,
                                                              PoseFormat format = PoseFormat::Matrix);
-    /// `name` is what errors call the stream, which must outlive the reader. Its buffer is read; its state, which must
-    /// not be bad, stays as it is.
+    /// Reads from a stream, which must outlive the reader; errors call it `name`. Uses its buffer and leaves its state,
+    /// which must not be bad.
     [[nodiscard]] VOXTACT_API static Result<PoseReader> over(std::istream& stream, const std::string& name,
                                                              PoseFormat format = PoseFormat::Matrix);
     VOXTACT_API PoseReader(PoseReader&&) noexcept;
@@ -191,12 +192,13 @@ class PoseReader {
     std::unique_ptr<State> state_;
 };
 
-/// One matrix a line: 16 numbers, or 12 without the last row, row by row, with blanks or commas between them; or four
-/// lines of 4 numbers; or an affine transform of ITK (the lines Transform, Parameters and FixedParameters), whose
-/// inverse is the pose, as 3D Slicer writes it. Other formats: 7 numbers a line; the translation is that of the
-/// object's origin. `#` comments and empty lines. Numbers have a decimal point in every locale. Errors name the line
-/// ("poses.txt line 7: 15 numbers, a pose has 16, or 12 (row by row)"). Refuses what checkAffine() refuses, a
-/// quaternion whose norm is off 1 by more than 0.001 (others are normalised), and a file without a pose.
+/// Reads poses. PoseFormat::Matrix: one matrix per line, 16 numbers, or 12 without the last row, row by row, separated
+/// by blanks or commas; or four lines of 4 numbers; or an affine ITK transform (the lines Transform, Parameters and
+/// FixedParameters), whose inverse is the pose, as 3D Slicer writes it. Other formats: 7 numbers per line; the
+/// translation is that of the object's origin. `#` begins a comment; empty lines are skipped. Numbers have a decimal
+/// point in every locale. Errors name the line ("poses.txt line 7: 15 numbers, a pose has 16, or 12 (row by row)").
+/// Refuses what checkAffine() refuses, a quaternion whose norm differs from 1 by more than 0.001 (others are
+/// normalised), and a file without a pose.
 [[nodiscard]] VOXTACT_API Result<std::vector<Mat4>> readPoses(const std::filesystem::path& path,
                                                               PoseFormat format = PoseFormat::Matrix);
 

@@ -61,11 +61,11 @@ typedef struct vxt_transfer_function_desc {
 
 /// A triangle mesh that the caller owns, in object space.
 typedef struct vxt_mesh_view {
-    size_t struct_size;      ///< sizeof
-    const double* positions; ///< three a vertex
-    size_t vertex_count;     ///< vertices
-    const uint32_t* indices; ///< three a triangle
-    size_t triangle_count;   ///< triangles
+    size_t struct_size;      ///< sizeof this struct
+    const double* positions; ///< three per vertex
+    size_t vertex_count;     ///< number of vertices
+    const uint32_t* indices; ///< three per triangle
+    size_t triangle_count;   ///< number of triangles
     double deflection;       ///< object units: voxtact::MeshView::deflection
 } vxt_mesh_view;
 
@@ -78,11 +78,11 @@ typedef struct vxt_box {
 /// Facts of a mesh: voxtact::MeshFacts.
 typedef struct vxt_mesh_facts {
     vxt_box bounds;      ///< object space
-    uint32_t vertices;   ///< how many
-    uint32_t triangles;  ///< how many, degenerate ones included
-    uint32_t degenerate; ///< triangles whose area is zero in float: allowed, no pixel of a view is theirs
-    double rounding;     ///< object units: voxtact::MeshFacts::rounding; above 1e-4 worth a note
-    double deflection;   ///< object units: that of the view
+    uint32_t vertices;   ///< number of vertices
+    uint32_t triangles;  ///< number of triangles, degenerate ones included
+    uint32_t degenerate; ///< triangles whose area is zero in float: allowed; they cover no pixel of a view
+    double rounding;     ///< object units: voxtact::MeshFacts::rounding; above 1e-4 it gives a note
+    double deflection;   ///< object units: vxt_mesh_view::deflection
 } vxt_mesh_facts;
 
 /// A box of voxels.

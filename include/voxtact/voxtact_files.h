@@ -14,19 +14,19 @@ extern "C" {
 
 /// Selects an image of a file or folder that holds several.
 typedef struct vxt_volume_read_options {
-    size_t struct_size;    ///< sizeof
-    const char* series;    ///< SeriesInstanceUID of a DICOM folder; null: the only one
-    uint32_t choose_frame; ///< 1: `frame` says which; 0: the only one
-    uint32_t frame;        ///< of a 4D NIfTI file, counted from 0
+    size_t struct_size;    ///< sizeof this struct
+    const char* series;    ///< SeriesInstanceUID in a DICOM folder; null: the only series
+    uint32_t choose_frame; ///< 1: uses `frame`; 0: the only image
+    uint32_t frame;        ///< index in a 4D NIfTI file, from 0
     uint32_t resample;     ///< 1: DICOM slices that make no regular grid are resampled, with a note; 0: refused
 } vxt_volume_read_options;
 
 /// Unit and space of a mesh file.
 typedef struct vxt_mesh_read_options {
-    size_t struct_size; ///< sizeof
-    double scale;       ///< millimetres in a unit of the file; 0: 1
-    uint32_t ras;       ///< 1: RAS coordinates: x and y are negated; 0: what the file says, else LPS
-    double deflection;  ///< mm: STEP and IGES are triangulated with it; 0: 0.01
+    size_t struct_size; ///< sizeof this struct
+    double scale;       ///< millimetres per unit of the file; 0: 1
+    uint32_t ras;       ///< 1: RAS coordinates: x and y are negated; 0: as the file states, else LPS
+    double deflection;  ///< of the triangulation of STEP and IGES, mm; 0: 0.01
 } vxt_mesh_read_options;
 
 /// Reads a volume from a file or a DICOM folder: voxtact::io::readVolume(). Null options are the defaults.
@@ -58,20 +58,20 @@ VXT_CHECKED vxt_result vxt_read_camera(const char* path, double clip_from_world[
 
 /// Poses read from a file.
 typedef struct vxt_poses vxt_poses;
-/// One pose a line: voxtact::io::readPoses(). `format`: "matrix", "t-xyzw", "t-wxyz", "xyzw-t" or "wxyz-t"; null:
-/// "matrix".
+/// Reads poses: voxtact::io::readPoses(). `format`: "matrix", "t-xyzw", "t-wxyz", "xyzw-t" or "wxyz-t"; null: "matrix".
 VXT_CHECKED vxt_result vxt_read_poses(const char* path, const char* format, vxt_poses** poses);
-/// 16 doubles per pose, column by column, as items take them; valid as long as the object. `count` is of poses.
+/// Returns 16 doubles per pose, column-major, as items take them; valid as long as the object. `count`: number of
+/// poses.
 VXT_API const double* vxt_poses_get(const vxt_poses* poses, size_t* count);
 /// Destroys the object.
 VXT_API void vxt_poses_destroy(vxt_poses* poses);
 
 /// Reads poses in parts, in constant memory, like vxt_read_poses(): voxtact::io::PoseReader.
 typedef struct vxt_pose_reader vxt_pose_reader;
-/// Refuses a file that cannot be opened.
+/// Opens a file. Refuses a file that cannot be opened.
 VXT_CHECKED vxt_result vxt_pose_reader_open(const char* path, const char* format, vxt_pose_reader** reader);
-/// The next poses, at most `most`, into `poses`, 16 doubles each, column by column. `count` is how many there were: 0
-/// after the last one.
+/// Reads the next poses, at most `most`, into `poses`, 16 doubles each, column-major. `count` is their number: 0 at the
+/// end.
 VXT_CHECKED vxt_result vxt_pose_reader_read(vxt_pose_reader* reader, double* poses, size_t most, size_t* count);
 /// Destroys the object.
 VXT_API void vxt_pose_reader_destroy(vxt_pose_reader* reader);

@@ -19,14 +19,14 @@ struct MeshInfo {
     std::string hint; ///< what strikes in its size; empty: nothing
 };
 
-/// How a mesh lies to a volume.
+/// Placement of a mesh relative to a volume.
 struct PairInfo {
-    std::string volume; ///< its path
+    std::string volume; ///< path of the volume
     Placement placement;
     std::vector<OtherReading> others; ///< the best first
 };
 
-/// What a path holds, a volume or a mesh, or how the mesh lies to a volume.
+/// Contents of a path, a volume or a mesh, or the placement of the mesh relative to a volume.
 struct PathInfo {
     std::string path;
     std::optional<VolumeInfo> volume;

@@ -21,13 +21,13 @@ struct OutputOptions {
     [[nodiscard]] io::Format format() const;
 };
 
-/// The column of commands with --resample: whether the volume was.
+/// Column of commands with --resample: whether the volume was resampled.
 inline constexpr const char* kResampledColumn = "resampled";
 [[nodiscard]] inline io::Cell resampledCell(bool isResampled) {
     return isResampled ? io::NumberWord{1, "yes"} : io::NumberWord{0, "no"};
 }
 
-/// Whether `path` can be written, found out without writing: no work is done for nothing. Fine when it is empty.
+/// Checks that `path` can be written, without writing, before any work. An empty path is valid.
 [[nodiscard]] Result<void> checkOutput(const std::filesystem::path& path);
 
 /// Refuses two of the named paths ("--output", path) that are one file; empty ones, devices and pipes are not

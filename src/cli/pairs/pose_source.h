@@ -16,9 +16,8 @@ namespace voxtact::app {
 /// their number.
 class PoseSource {
   public:
-    /// No path: the identity. "-": standard input, which is read as it is asked for, or all at once where it is needed
-    /// `again`. A file is read once at once, so that what is wrong with it is known before there are answers. Poses
-    /// come out in LPS.
+    /// Opens poses. Without a path: the identity. "-": standard input, read on demand, or at once if it is needed
+    /// `again`. A file is read completely first, so that its errors precede all answers. Poses are returned in LPS.
     [[nodiscard]] static Result<PoseSource> open(const ViewOptions& how, bool again);
 
     /// Returns the number of poses, if known.

@@ -145,7 +145,7 @@ Result<void> setLook(const RenderOptions& options, RenderInputs& inputs) {
     return {};
 }
 
-/// Meshes that are beside the volume in every picture.
+/// Notes meshes that lie beside the volume in every picture.
 Result<void> noteFar(const RenderOptions& options, RenderInputs& inputs) {
     for (std::size_t mesh = 0; mesh < inputs.meshes.size(); ++mesh) {
         const ReadMesh read{options.meshes.sources[mesh], options.meshes, inputs.bounds[mesh], inputs.poses,
@@ -157,7 +157,7 @@ Result<void> noteFar(const RenderOptions& options, RenderInputs& inputs) {
     return {};
 }
 
-/// Where nothing is to be shown to touch, nobody needs to know.
+/// Without contacts to show, opacity notes do not matter.
 Result<void> noteOpacity(const RenderOptions& options, RenderInputs& inputs) {
     if (!options.show.what.empty()) {
         printOpacityNotes(inputs.transferFunction(options), inputs.values, options.transferFunction.threshold,

@@ -16,10 +16,10 @@ from ._turns import guarded
 
 
 def read_poses(path: Union[str, os.PathLike[str]], format: str = "matrix") -> npt.NDArray[np.float64]:
-    """(N,4,4) from the program's files: one matrix a line, 16 numbers row by row; `#` comments.
+    """Reads poses, (N,4,4), from a file: one matrix per line, 16 numbers row by row; `#` comments.
 
-    format: "matrix", or 7 numbers a line, a translation in mm (t) and a unit quaternion: "t-xyzw", "t-wxyz", "xyzw-t",
-    "wxyz-t".
+    format: "matrix", or 7 numbers per line, a translation in mm (t) and a unit quaternion: "t-xyzw", "t-wxyz",
+    "xyzw-t", "wxyz-t".
     """
     count = ffi.new("size_t*")
     poses = guarded(made, "poses", lib.vxt_read_poses, encoded(path), encoded_text(format, "format"))

@@ -353,19 +353,19 @@ def _refuse_what_is_no_array(source: Any) -> None:
 def read_volume(source: Any, *, affine: Optional[npt.ArrayLike] = None, space: Optional[Space] = None,
                 axes: Optional[Literal["zyx", "xyz"]] = None, frame: Optional[int] = None, series: str = "",
                 resample: bool = False) -> Volume:
-    """A volume from a file, an array, or an image of another library.
+    """Reads a volume from a file, an array, or an image of another library.
 
     source
         - a path: NIfTI, NRRD, MetaImage, or a folder with a DICOM series; ``"builtin:head:64"`` and the other names of
-          the program's builtins. `frame` chooses one of a 4D file, `series` a SeriesInstanceUID. With `resample` DICOM
-          slices that make no regular grid (uneven gaps, a tilted gantry) are interpolated linearly, with a note; they
-          are refused without it.
-        - an array of three dimensions with `affine`, (4,4): it takes voxel numbers (x, y, z, 1) to the world in mm, to
-          RAS as nibabel's do, or to LPS with ``space="lps"``. The array is indexed [x, y, z], as nibabel's are; with
-          ``axes="zyx"`` it is indexed [z, y, x], as `Volume.array` is. Its order in memory does not matter. Dimensions
-          that are named x, y and z, as xarray's may be, say it themselves; coordinates are not looked at.
-        - a nibabel image (4D: with `frame`), an image of SimpleITK or itk, or a vtkImageData (which knows no space: LPS,
-          unless ``space="ras"``).
+          the program's builtins. `frame` selects an image of a 4D file, `series` a SeriesInstanceUID. `resample`
+          interpolates DICOM slices that make no regular grid (uneven gaps, a tilted gantry) linearly, with a note;
+          without it they are refused.
+        - an array of three dimensions with `affine`, (4,4): it maps voxel indices (x, y, z, 1) to the world in mm, RAS
+          as in nibabel, or LPS with ``space="lps"``. The array is indexed [x, y, z], as in nibabel; with
+          ``axes="zyx"`` it is indexed [z, y, x], like `Volume.array`. Its order in memory does not matter. Named
+          dimensions x, y and z, such as xarray's, override `axes`; coordinates are ignored.
+        - a nibabel image (4D: with `frame`), an image of SimpleITK or itk, or a vtkImageData (LPS, unless
+          ``space="ras"``).
 
     uint8, int16, uint16 and float32 arrays whose x axis is contiguous are not copied, and must not change afterwards.
     Other whole numbers become int16, uint16 or, if exact, float32; float64 is rounded. `Volume.notes` lists copies.
