@@ -18,6 +18,7 @@ set(voxtact_samples_headers "${PROJECT_SOURCE_DIR}/include/voxtact/samples.h")
 file(GLOB voxtact_c_headers CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/include/voxtact/voxtact*.h")
 list(REMOVE_ITEM voxtact_headers ${voxtact_io_headers} ${voxtact_cpu_headers} ${voxtact_render_headers}
      ${voxtact_samples_headers} ${voxtact_c_headers})
+list(APPEND voxtact_c_headers "${PROJECT_SOURCE_DIR}/include/voxtact/device_memory.h") # which C++ has, too
 
 # voxtact_install(TARGET EXPORT_SET HEADER...): installs under the component TARGET.
 function(voxtact_install target export_set)

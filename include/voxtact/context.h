@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "voxtact/device_memory.h"
 #include "voxtact/error.h"
 #include "voxtact/methods.h"
 
@@ -19,8 +20,13 @@ struct ContextImpl;
 /// `text` is valid during the call only. May be called from any thread that calls voxtact.
 using LogCallback = void (*)(void* user, const char* text);
 
+using MemoryRequest = vxt_memory_request;     ///< a buffer or an image that needs device memory
+using DeviceMemory = vxt_device_memory;       ///< its memory
+using MemoryCallbacks = vxt_memory_callbacks; ///< the caller's allocator of it
+
 /// The caller's device. Valid when zero-initialised: check() then names everything that is missing. Nothing in it is
-/// kept but the handles, `getInstanceProcAddr`, the allocator and the log callback; those must outlive the Context.
+/// kept but the handles, `getInstanceProcAddr`, `allocator`, the memory and the log callbacks; those must outlive what
+/// is made with the Context.
 struct ContextDesc {
     PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr; ///< the caller's loader; never looked up by voxtact
     VkInstance instance = VK_NULL_HANDLE;                    ///< the caller's
@@ -46,8 +52,13 @@ struct ContextDesc {
     std::uint64_t fragmentsAtOnce = 0;
     VkPipelineCache pipelineCache = VK_NULL_HANDLE;   ///< optional; used, never destroyed
     const VkAllocationCallbacks* allocator = nullptr; ///< optional
-    LogCallback log = nullptr;                        ///< optional; warnings, a line each
-    void* logUser = nullptr;                          ///< the first argument of every call of `log`
+    /// Optional: device memory for every buffer and image comes from the caller's allocator. Without it the Context
+    /// has a pool, which objects share: blocks of 1 to 64 MiB, each at most a 16th of its heap, and an allocation of
+    /// its own for an object that needs more than a quarter of the largest block. A block with nothing in it is freed,
+    /// but for one of 1 MiB for each kind of memory.
+    MemoryCallbacks memory{};
+    LogCallback log = nullptr; ///< optional; warnings, a line each
+    void* logUser = nullptr;   ///< the first argument of every call of `log`
 };
 
 /// A feature that voxtact uses, as data.

@@ -2,6 +2,7 @@
 #ifndef VOXTACT_VOXTACT_VULKAN_CONTEXT_H
 #define VOXTACT_VOXTACT_VULKAN_CONTEXT_H
 
+#include "voxtact/device_memory.h"
 #include "voxtact/voxtact.h"
 
 #include <vulkan/vulkan_core.h>
@@ -16,8 +17,8 @@ extern "C" {
 /// Receives a log line. `text` is valid during the call only. Called from any thread that calls voxtact.
 typedef void (*vxt_log_callback)(void* user, const char* text);
 
-/// The caller's device: voxtact::ContextDesc. The handles, the loader's pointer, the allocator and the log callback
-/// must outlive the context.
+/// The caller's device: voxtact::ContextDesc. The handles, the loader's pointer, the allocator, the memory and the log
+/// callbacks are kept and must outlive what is made with the context.
 typedef struct vxt_context_desc {
     size_t struct_size;                                ///< sizeof this struct
     PFN_vkGetInstanceProcAddr get_instance_proc_addr;  ///< the caller's loader
@@ -34,9 +35,10 @@ typedef struct vxt_context_desc {
     vxt_log_callback log;                              ///< optional; receives warnings, one line each
     void* log_user;                                    ///< first argument of `log`
     uint32_t api_version;                              ///< of the instance; at least VK_API_VERSION_1_3
-    const uint32_t* queue_families;                    ///< of the queues that use the objects; two or more share them
-    size_t queue_family_count;                         ///< length of queue_families
-    uint64_t fragments_at_once;                        ///< voxtact::ContextDesc::fragmentsAtOnce
+    const uint32_t* queue_families;                    ///< of the queues that use what is made; two or more share it
+    size_t queue_family_count;                         ///< of these: voxtact::ContextDesc::queueFamilies
+    uint64_t fragments_at_once;                        ///< that a draw tests: voxtact::ContextDesc::fragmentsAtOnce
+    vxt_memory_callbacks memory;                       ///< optional: the caller's allocator of device memory
 } vxt_context_desc;
 
 /// A feature that voxtact uses: voxtact::Requirement. Its texts have static lifetime.

@@ -23,6 +23,7 @@ ContextDesc toContextDesc(const vxt_context_desc* given) {
             .fragmentsAtOnce = desc.fragments_at_once,
             .pipelineCache = desc.pipeline_cache,
             .allocator = desc.allocator,
+            .memory = desc.memory,
             .log = desc.log,
             .logUser = desc.log_user};
 }

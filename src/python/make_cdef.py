@@ -8,15 +8,18 @@ import sys
 
 import cffi
 
-# Types that the headers take from Vulkan. Handles are pointers on every 64-bit machine.
-HANDLES = ("VkInstance VkPhysicalDevice VkDevice VkQueue VkCommandBuffer VkPipelineCache VkImageView VkBuffer "
-           "VkQueryPool").split()
+# What the headers take from Vulkan's. Handles are pointers on every machine of 64 bits.
+HANDLES = ("VkInstance VkPhysicalDevice VkDevice VkQueue VkCommandBuffer VkPipelineCache VkImage VkImageView "
+           "VkBuffer VkDeviceMemory VkQueryPool").split()
 STRUCTS = "VkPhysicalDeviceFeatures2 VkAllocationCallbacks".split()
-NUMBERS = "VkFormat VkImageLayout VkIndexType".split()
+NUMBERS = "VkFormat VkImageLayout VkIndexType VkResult".split()
 VULKAN = "\n".join([*(f"typedef struct {name}_T* {name};" for name in HANDLES),
                     *(f"typedef struct {name} {name};" for name in STRUCTS),
                     *(f"typedef int32_t {name};" for name in NUMBERS),
                     "typedef uint64_t VkDeviceSize;",
+                    "typedef uint32_t VkMemoryPropertyFlags;",
+                    "typedef struct VkMemoryRequirements { VkDeviceSize size; VkDeviceSize alignment; uint32_t memoryTypeBits; } "
+                    "VkMemoryRequirements;",
                     "typedef void* PFN_vkGetInstanceProcAddr;",
                     "typedef struct VkOffset2D { int32_t x; int32_t y; } VkOffset2D;",
                     "typedef struct VkExtent2D { uint32_t width; uint32_t height; } VkExtent2D;",

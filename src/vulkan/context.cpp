@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/guard.h"
 #include "core/base/live.h"
+#include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "core/method/method_table.h"
 #include "exact/shared.h"
@@ -227,6 +228,9 @@ Context::~Context() {
 
 Result<Context> Context::create(const ContextDesc& desc) {
     return guard([&]() -> Result<Context> {
+        if ((desc.memory.allocate == nullptr) != (desc.memory.release == nullptr)) {
+            return refuse("ContextDesc::memory has one function: both are needed, or neither");
+        }
         VOXTACT_TRY(checkFamilies(desc));
         CheckReport report = check(desc);
         if (!report.usable) {
@@ -238,6 +242,7 @@ Result<Context> Context::create(const ContextDesc& desc) {
         impl->device = desc.device;
         impl->pipelineCache = desc.pipelineCache;
         impl->allocator = desc.allocator;
+        impl->memoryCallbacks = desc.memory;
         impl->logCallback = desc.log;
         impl->logUser = desc.logUser;
         impl->features = readFeatures(desc.enabledFeatures);

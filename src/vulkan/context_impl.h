@@ -29,6 +29,7 @@ struct ContextImpl : SharedImpl<ContextImpl> {
     VkDevice device = VK_NULL_HANDLE;
     VkPipelineCache pipelineCache = VK_NULL_HANDLE;
     const VkAllocationCallbacks* allocator = nullptr;
+    MemoryCallbacks memoryCallbacks{}; ///< null: the pool's own blocks
     LogCallback logCallback = nullptr;
     void* logUser = nullptr;
 
@@ -45,6 +46,7 @@ struct ContextImpl : SharedImpl<ContextImpl> {
     /// llvmpipe (seen in Mesa 22.3 and 25.0) leaves all loops of an invocation that has had 65,535 rounds of them.
     bool endsLongLoops = false;
     VkPhysicalDeviceMemoryProperties memory{};
+    MemoryPool pool; ///< ends after what this has buffers of
     std::vector<MethodSupport> methods;
 
     std::vector<std::uint32_t> queueFamilies{}; ///< ContextDesc::queueFamilies

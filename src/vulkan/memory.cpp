@@ -4,69 +4,11 @@
 #include "core/base/try.h"
 #include "vulkan/debug.h"
 
-#include <algorithm>
-#include <optional>
 #include <string>
 
 namespace voxtact {
 
 namespace {
-
-std::optional<std::uint32_t> memoryType(const ContextImpl& context, std::uint32_t allowed,
-                                        VkMemoryPropertyFlags wanted) {
-    for (std::uint32_t i = 0; i < context.memory.memoryTypeCount; ++i) {
-        if ((allowed & (1U << i)) != 0 && (context.memory.memoryTypes[i].propertyFlags & wanted) == wanted) {
-            return i;
-        }
-    }
-    return std::nullopt;
-}
-
-/// The best type first; the last of each list is what Vulkan guarantees to exist.
-std::optional<std::uint32_t> memoryTypeFor(const ContextImpl& context, std::uint32_t allowed, MemoryUse use) {
-    constexpr VkMemoryPropertyFlags kVisible = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT;
-    constexpr VkMemoryPropertyFlags kWanted[3][3] = {
-        {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0, 0},
-        {kVisible | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT, kVisible, kVisible},
-        {kVisible | VK_MEMORY_PROPERTY_HOST_CACHED_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
-         kVisible | VK_MEMORY_PROPERTY_HOST_CACHED_BIT, kVisible},
-    };
-    for (const VkMemoryPropertyFlags wanted : kWanted[static_cast<std::size_t>(use)]) {
-        if (const auto type = memoryType(context, allowed, wanted)) {
-            return type;
-        }
-    }
-    return std::nullopt;
-}
-
-Result<Owned<VkDeviceMemory>> allocate(ContextImpl& context, const VkMemoryRequirements& needs, std::uint32_t type,
-                                       const std::string& what) {
-    if (needs.size > context.maxAllocation) {
-        return Error{ErrorCode::LimitExceeded, 0,
-                     what + " needs " + std::to_string(needs.size) +
-                         " bytes, the device's maxMemoryAllocationSize is " + std::to_string(context.maxAllocation)};
-    }
-    VkMemoryAllocateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
-    info.allocationSize = needs.size;
-    info.memoryTypeIndex = type;
-    VkDeviceMemory memory = VK_NULL_HANDLE;
-    if (const VkResult result = context.vk.AllocateMemory(context.device, &info, context.allocator, &memory);
-        result != VK_SUCCESS) {
-        const std::string text = "allocating " + std::to_string(needs.size) + " bytes for " + what;
-        return context.failure(result, text.c_str());
-    }
-    return Owned<VkDeviceMemory>(
-        context, memory, [](ContextImpl& c, VkDeviceMemory handle) { c.vk.FreeMemory(c.device, handle, c.allocator); });
-}
-
-Result<void> mapBuffer(ContextImpl& context, Buffer& out) {
-    const VkResult result = context.vk.MapMemory(context.device, out.memory.get(), 0, VK_WHOLE_SIZE, 0, &out.mapped);
-    if (result != VK_SUCCESS) {
-        return context.failure(result, "mapping a buffer");
-    }
-    return {};
-}
 
 Result<Owned<VkImageView>> makeView(ContextImpl& context, VkImage image, const ImageDesc& desc) {
     VkImageViewCreateInfo info{};
@@ -83,22 +25,6 @@ Result<Owned<VkImageView>> makeView(ContextImpl& context, VkImage image, const I
     return Owned<VkImageView>(context, view, [](ContextImpl& c, VkImageView handle) {
         c.vk.DestroyImageView(c.device, handle, c.allocator);
     });
-}
-
-Result<void> wholeRange(ContextImpl& context, const Buffer& buffer, bool toDevice) {
-    if (buffer.coherent) {
-        return {};
-    }
-    VkMappedMemoryRange range{};
-    range.sType = VK_STRUCTURE_TYPE_MAPPED_MEMORY_RANGE;
-    range.memory = buffer.memory.get();
-    range.size = VK_WHOLE_SIZE;
-    const VkResult result = toDevice ? context.vk.FlushMappedMemoryRanges(context.device, 1, &range)
-                                     : context.vk.InvalidateMappedMemoryRanges(context.device, 1, &range);
-    if (result != VK_SUCCESS) {
-        return context.failure(result, toDevice ? "flushing host memory" : "invalidating host memory");
-    }
-    return {};
 }
 
 } // namespace
@@ -121,23 +47,17 @@ Result<Buffer> makeBuffer(ContextImpl& context, VkDeviceSize size, VkBufferUsage
         context, handle, [](ContextImpl& c, VkBuffer buffer) { c.vk.DestroyBuffer(c.device, buffer, c.allocator); });
     VkMemoryRequirements needs{};
     context.vk.GetBufferMemoryRequirements(context.device, handle, &needs);
-    const auto type = memoryTypeFor(context, needs.memoryTypeBits, use);
-    if (!type) {
-        return Error{ErrorCode::Unsupported, 0, std::string("the device has no memory type for ") + name};
-    }
-    Result<Owned<VkDeviceMemory>> memory = allocate(context, needs, *type, name);
+    Result<Memory> memory = MemoryPool::allocate(
+        context, {.requirements = needs, .use = use, .buffer = handle, .what = name, .name = name});
     VOXTACT_TRY(memory);
     out.memory = std::move(*memory);
-    out.coherent = (context.memory.memoryTypes[*type].propertyFlags & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT) != 0;
-    if (const VkResult result = context.vk.BindBufferMemory(context.device, handle, out.memory.get(), 0);
+    const DeviceMemory& place = out.memory.get();
+    if (const VkResult result = context.vk.BindBufferMemory(context.device, handle, place.memory, place.offset);
         result != VK_SUCCESS) {
         return context.failure(result, "binding a buffer's memory");
     }
-    if (use != MemoryUse::Device) {
-        VOXTACT_TRY(mapBuffer(context, out));
-    }
+    out.mapped = use == MemoryUse::Device ? nullptr : place.mapped;
     nameObject(context, VK_OBJECT_TYPE_BUFFER, handle, name);
-    nameObject(context, VK_OBJECT_TYPE_DEVICE_MEMORY, out.memory.get(), name);
     return out;
 }
 
@@ -167,11 +87,23 @@ Result<void> makeStaged(ContextImpl& context, VkDeviceSize size, VkBufferUsageFl
 }
 
 Result<void> flush(ContextImpl& context, const Buffer& buffer) {
-    return wholeRange(context, buffer, true);
+    if (const auto range = buffer.memory.incoherent()) {
+        if (const VkResult result = context.vk.FlushMappedMemoryRanges(context.device, 1, &*range);
+            result != VK_SUCCESS) {
+            return context.failure(result, "flushing host memory");
+        }
+    }
+    return {};
 }
 
 Result<void> invalidate(ContextImpl& context, const Buffer& buffer) {
-    return wholeRange(context, buffer, false);
+    if (const auto range = buffer.memory.incoherent()) {
+        if (const VkResult result = context.vk.InvalidateMappedMemoryRanges(context.device, 1, &*range);
+            result != VK_SUCCESS) {
+            return context.failure(result, "invalidating host memory");
+        }
+    }
+    return {};
 }
 
 Result<Image> makeImage(ContextImpl& context, const ImageDesc& desc, const char* what, const char* name) {
@@ -196,14 +128,12 @@ Result<Image> makeImage(ContextImpl& context, const ImageDesc& desc, const char*
                                [](ContextImpl& c, VkImage image) { c.vk.DestroyImage(c.device, image, c.allocator); });
     VkMemoryRequirements needs{};
     context.vk.GetImageMemoryRequirements(context.device, handle, &needs);
-    const auto type = memoryTypeFor(context, needs.memoryTypeBits, MemoryUse::Device);
-    if (!type) {
-        return Error{ErrorCode::Unsupported, 0, std::string("the device has no memory type for ") + what};
-    }
-    Result<Owned<VkDeviceMemory>> memory = allocate(context, needs, *type, what);
+    Result<Memory> memory =
+        MemoryPool::allocate(context, {.requirements = needs, .image = handle, .what = what, .name = name});
     VOXTACT_TRY(memory);
     out.memory = std::move(*memory);
-    if (const VkResult result = context.vk.BindImageMemory(context.device, handle, out.memory.get(), 0);
+    const DeviceMemory& place = out.memory.get();
+    if (const VkResult result = context.vk.BindImageMemory(context.device, handle, place.memory, place.offset);
         result != VK_SUCCESS) {
         return context.failure(result, "binding an image's memory");
     }
@@ -212,7 +142,6 @@ Result<Image> makeImage(ContextImpl& context, const ImageDesc& desc, const char*
     out.view = std::move(*view);
     nameObject(context, VK_OBJECT_TYPE_IMAGE, handle, name);
     nameObject(context, VK_OBJECT_TYPE_IMAGE_VIEW, out.view.get(), name);
-    nameObject(context, VK_OBJECT_TYPE_DEVICE_MEMORY, out.memory.get(), name);
     return out;
 }
 

@@ -19,6 +19,16 @@ TEST_P(DrySweep, EveryCallFailsOnce) {
         scenario.name, [&](const std::optional<Fault>& fault) { return playDry(scenario, fault); }, 1));
 }
 
+/// Where objects share blocks of memory, which are not coherent either.
+TEST_P(DrySweep, EveryCallFailsOnceWithSharedBlocks) {
+    constexpr VkDeviceSize kHeap = VkDeviceSize{1} << 20U;
+    constexpr VkResult kResults[] = {VK_ERROR_OUT_OF_DEVICE_MEMORY};
+    const Scenario& scenario = GetParam();
+    expectNoFailures(sweep(
+        scenario.name, [&](const std::optional<Fault>& fault) { return playDry(scenario, fault, kHeap); }, 1,
+        kResults));
+}
+
 std::vector<Scenario> allScenarios() {
     std::vector<Scenario> all;
     for (const auto make : {sceneScenarios, detectScenarios, editScenarios, renderScenarios}) {

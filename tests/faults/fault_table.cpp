@@ -201,7 +201,9 @@ std::optional<VkResult> FaultTable::enter(const char* function) {
     }
     const std::uint64_t number = calls_.size();
     calls_.push_back(function);
-    if (!fault_ || fault_->call != number) {
+    // Where there is no room for a block of memory, less is asked for at once: there is no room for that either.
+    const bool again = failed_ == function && failed_ == "vkAllocateMemory" && number == fault_->call + 1;
+    if (!fault_ || (fault_->call != number && !again)) {
         return std::nullopt;
     }
     failed_ = function;

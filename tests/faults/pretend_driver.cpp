@@ -106,6 +106,10 @@ void PretendDriver::trace(std::uint32_t fragments) noexcept {
     state_->traced = fragments;
 }
 
+void PretendDriver::heap(VkDeviceSize bytes) noexcept {
+    state_->heap = bytes;
+}
+
 void PretendDriver::lose() {
     state_->lost = true;
     state_->pending.clear();
@@ -117,6 +121,27 @@ std::vector<std::string> PretendDriver::takeComplaints() {
 
 bool PretendState::inUse(Id id) const {
     return std::ranges::any_of(pending, [id](const Submission& submission) { return submission.uses.contains(id); });
+}
+
+void PretendState::bind(Id memory, VkDeviceSize offset, VkDeviceSize size) {
+    PretendMemory* found = memories.find(memory);
+    if (found == nullptr || offset > found->bytes.size() || size > found->bytes.size() - offset ||
+        offset % kAlignment != 0) {
+        complain("something is bound to no memory, beyond it or not aligned");
+        return;
+    }
+    const auto next = found->bound.upper_bound(offset);
+    const bool overlapsNext = next != found->bound.end() && next->first < offset + size;
+    if (overlapsNext || (next != found->bound.begin() && std::prev(next)->second > offset)) {
+        complain("two objects are bound to the same memory");
+    }
+    found->bound[offset] = offset + size;
+}
+
+void PretendState::unbind(Id memory, VkDeviceSize offset) {
+    if (PretendMemory* found = memories.find(memory)) {
+        found->bound.erase(offset);
+    }
 }
 
 std::span<std::byte> PretendState::bytesOf(Id memory, VkDeviceSize offset, VkDeviceSize size, const char* what) {
@@ -169,6 +194,7 @@ void VKAPI_CALL GetPhysicalDeviceProperties2(VkPhysicalDevice, VkPhysicalDeviceP
     for (std::uint32_t& count : limits.maxComputeWorkGroupCount) {
         count = 65535;
     }
+    limits.nonCoherentAtomSize = kAtom;
     limits.timestampPeriod = 1;
     for (auto* next = static_cast<VkBaseOutStructure*>(out->pNext); next != nullptr; next = next->pNext) {
         if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES) {
@@ -194,6 +220,7 @@ void VKAPI_CALL GetPhysicalDeviceMemoryProperties(VkPhysicalDevice, VkPhysicalDe
     // Never coherent, so that a forgotten flush is seen.
     out->memoryTypes[1].propertyFlags = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
     out->memoryHeapCount = 1;
+    out->memoryHeaps[0].size = pretend().heap;
 }
 
 void VKAPI_CALL GetPhysicalDeviceQueueFamilyProperties(VkPhysicalDevice, std::uint32_t* count,

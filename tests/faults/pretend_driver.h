@@ -18,7 +18,8 @@ struct PretendState;
 ///
 /// Host-visible memory is not coherent, and what was not flushed or invalidated is not seen on the other side. Every
 /// misuse that it notices is a complaint: objects that are ended, reset or written while a submission uses them,
-/// handles that are nothing, fences that were signalled before they are submitted, waits that would never end.
+/// handles that are nothing, fences that were signalled before they are submitted, waits that would never end, memory
+/// of two buffers at once.
 ///
 /// It is the whole loader and driver: no layer, no vkCreateDevice. One at a time in a process.
 class PretendDriver {
@@ -42,6 +43,8 @@ class PretendDriver {
     void count(Counting counting) noexcept;
     /// Fragments that a list of survivors has found; there are as many zeros in it as there is room for.
     void trace(std::uint32_t fragments) noexcept;
+    /// The size of the heap, 0 at first: every allocation then serves one buffer or image.
+    void heap(VkDeviceSize bytes) noexcept;
     /// The device is lost: nothing is in flight any more, and nothing will ever be.
     void lose();
     [[nodiscard]] std::vector<std::string> takeComplaints();

@@ -103,6 +103,23 @@ VkPipeline makePipeline(std::span<const VkPipelineShaderStageCreateInfo> stages,
     return s.pipelines.add(s.next++, pipeline);
 }
 
+/// The device's and the host's bytes of a mapped range.
+std::pair<std::span<std::byte>, std::span<std::byte>> bothSides(const VkMappedMemoryRange& range) {
+    PretendState& s = pretend();
+    PretendMemory* memory = s.get(s.memories, range.memory);
+    if (memory == nullptr) {
+        return {};
+    }
+    const VkDeviceSize all = memory->bytes.size();
+    const VkDeviceSize end = range.size == VK_WHOLE_SIZE ? all : range.offset + range.size;
+    if (memory->host.empty() || end > all || range.offset % kAtom != 0 || (end % kAtom != 0 && end != all)) {
+        s.complain("a range is flushed or invalidated that is not mapped, beyond its memory or not of whole atoms");
+        return {};
+    }
+    return {std::span(memory->bytes).subspan(range.offset, end - range.offset),
+            std::span(memory->host).subspan(range.offset, end - range.offset)};
+}
+
 } // namespace
 
 VkResult VKAPI_CALL AllocateMemory(VkDevice, const VkMemoryAllocateInfo* info, const VkAllocationCallbacks*,
@@ -127,18 +144,16 @@ VkResult VKAPI_CALL MapMemory(VkDevice, VkDeviceMemory handle, VkDeviceSize, VkD
 }
 
 VkResult VKAPI_CALL FlushMappedMemoryRanges(VkDevice, std::uint32_t count, const VkMappedMemoryRange* ranges) {
-    for (std::uint32_t i = 0; i < count; ++i) {
-        if (PretendMemory* memory = pretend().get(pretend().memories, ranges[i].memory)) {
-            memory->bytes = memory->host;
-        }
+    for (const VkMappedMemoryRange& range : std::span(ranges, count)) {
+        const auto [device, host] = bothSides(range);
+        std::ranges::copy(host, device.begin());
     }
     return VK_SUCCESS;
 }
 VkResult VKAPI_CALL InvalidateMappedMemoryRanges(VkDevice, std::uint32_t count, const VkMappedMemoryRange* ranges) {
-    for (std::uint32_t i = 0; i < count; ++i) {
-        if (PretendMemory* memory = pretend().get(pretend().memories, ranges[i].memory)) {
-            std::ranges::copy(memory->bytes, memory->host.begin());
-        }
+    for (const VkMappedMemoryRange& range : std::span(ranges, count)) {
+        const auto [device, host] = bothSides(range);
+        std::ranges::copy(device, host.begin());
     }
     return VK_SUCCESS;
 }
@@ -150,16 +165,21 @@ VkResult VKAPI_CALL CreateBuffer(VkDevice, const VkBufferCreateInfo* info, const
     return VK_SUCCESS;
 }
 void VKAPI_CALL DestroyBuffer(VkDevice, VkBuffer buffer, const VkAllocationCallbacks*) {
-    pretend().end(pretend().buffers, buffer);
+    PretendState& s = pretend();
+    if (const PretendBuffer* found = s.buffers.find(bitsOf(buffer))) {
+        s.unbind(found->memory, found->offset);
+    }
+    s.end(s.buffers, buffer);
 }
 void VKAPI_CALL GetBufferMemoryRequirements(VkDevice, VkBuffer handle, VkMemoryRequirements* out) {
     const PretendBuffer* buffer = pretend().get(pretend().buffers, handle);
-    *out = {buffer == nullptr ? 0 : buffer->size, 16, 0b11};
+    *out = {buffer == nullptr ? 0 : buffer->size, kAlignment, 0b11};
 }
 VkResult VKAPI_CALL BindBufferMemory(VkDevice, VkBuffer handle, VkDeviceMemory memory, VkDeviceSize offset) {
     if (PretendBuffer* buffer = pretend().get(pretend().buffers, handle)) {
         buffer->memory = bitsOf(memory);
         buffer->offset = offset;
+        pretend().bind(buffer->memory, offset, buffer->size);
     }
     return VK_SUCCESS;
 }
@@ -170,16 +190,21 @@ VkResult VKAPI_CALL CreateImage(VkDevice, const VkImageCreateInfo* info, const V
     return VK_SUCCESS;
 }
 void VKAPI_CALL DestroyImage(VkDevice, VkImage image, const VkAllocationCallbacks*) {
-    pretend().end(pretend().images, image);
+    PretendState& s = pretend();
+    if (const PretendImage* found = s.images.find(bitsOf(image))) {
+        s.unbind(found->memory, found->offset);
+    }
+    s.end(s.images, image);
 }
 void VKAPI_CALL GetImageMemoryRequirements(VkDevice, VkImage handle, VkMemoryRequirements* out) {
     const PretendImage* image = pretend().get(pretend().images, handle);
-    *out = {image == nullptr ? 0 : image->bytes(), 16, 0b01};
+    *out = {image == nullptr ? 0 : image->bytes(), kAlignment, 0b01};
 }
 VkResult VKAPI_CALL BindImageMemory(VkDevice, VkImage handle, VkDeviceMemory memory, VkDeviceSize offset) {
     if (PretendImage* image = pretend().get(pretend().images, handle)) {
         image->memory = bitsOf(memory);
         image->offset = offset;
+        pretend().bind(image->memory, offset, image->bytes());
     }
     return VK_SUCCESS;
 }

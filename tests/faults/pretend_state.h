@@ -20,9 +20,13 @@ namespace voxtact::test {
 
 using Id = std::uint64_t;
 
+inline constexpr VkDeviceSize kAlignment = 16; ///< of buffers and images
+inline constexpr VkDeviceSize kAtom = 64;      ///< nonCoherentAtomSize
+
 struct PretendMemory {
     std::vector<std::byte> bytes;
     std::vector<std::byte> host; ///< what the host sees: other bytes until they are flushed or invalidated
+    std::map<VkDeviceSize, VkDeviceSize> bound; ///< ranges of buffers and images: their ends by where they begin
 };
 
 struct PretendBuffer {
@@ -158,6 +162,7 @@ struct PretendState {
     PretendDriver::Counting counting = PretendDriver::Counting::Hash;
     std::uint32_t traced = 3;
     bool lost = false;
+    VkDeviceSize heap = 0; ///< bytes
     Id next = 0x1000;
     std::vector<std::string> complaints;
     std::deque<Submission> pending;
@@ -205,6 +210,10 @@ struct PretendState {
     }
     [[nodiscard]] bool inUse(Id id) const;
 
+    /// Binds a buffer or image to its memory, with a complaint where it is not aligned, leaves the memory or shares a
+    /// byte of it with another one.
+    void bind(Id memory, VkDeviceSize offset, VkDeviceSize size);
+    void unbind(Id memory, VkDeviceSize offset);
     /// The memory of a buffer or image; empty, with a complaint, where it has none.
     std::span<std::byte> bytesOf(Id memory, VkDeviceSize offset, VkDeviceSize size, const char* what);
     std::span<std::byte> bufferBytes(Id buffer, VkDeviceSize offset = 0, VkDeviceSize size = VK_WHOLE_SIZE);

@@ -78,8 +78,9 @@ Pass play(const Scenario& scenario, const std::optional<Fault>& fault, const Sta
     return pass;
 }
 
-Pass playDry(const Scenario& scenario, const std::optional<Fault>& fault) {
+Pass playDry(const Scenario& scenario, const std::optional<Fault>& fault, VkDeviceSize heap) {
     PretendDriver driver;
+    driver.heap(heap);
     driver.count(scenario.countsVoxels ? PretendDriver::Counting::OpaqueVoxels : PretendDriver::Counting::Hash);
     driver.trace(scenario.traced);
     FaultTable table(PretendDriver::getInstanceProcAddr(), [&] { driver.lose(); });

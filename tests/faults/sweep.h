@@ -23,8 +23,8 @@ struct Pass {
 };
 /// Plays a scenario on a stage; the complaints are the play's and the ledger's.
 [[nodiscard]] Pass play(const Scenario& scenario, const std::optional<Fault>& fault, const Stage& stage);
-/// The same on a PretendDriver, with its complaints.
-[[nodiscard]] Pass playDry(const Scenario& scenario, const std::optional<Fault>& fault);
+/// The same on a PretendDriver with a heap of so many bytes, with its complaints.
+[[nodiscard]] Pass playDry(const Scenario& scenario, const std::optional<Fault>& fault, VkDeviceSize heap = 0);
 
 struct SweepReport {
     std::uint64_t points = 0; ///< passes with a fault

@@ -100,6 +100,21 @@ TEST_F(CGpuTest, AllocatesByTheCallersCallbacks) {
     EXPECT_EQ(counting.given, counting.returned);
 }
 
+TEST_F(CGpuTest, AsksTheCallersAllocatorForDeviceMemory) {
+    std::string asked;
+    vxt_context_desc desc = cDesc(gpu().device.contextDesc());
+    desc.memory = {[](void* user, const vxt_memory_request* request, vxt_device_memory*) {
+                       *static_cast<std::string*>(user) = request->name;
+                       return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+                   },
+                   [](void*, const vxt_device_memory*) { FAIL() << "nothing was given"; }, &asked};
+    const auto own = made(vxt_context_destroy, vxt_context_create, &desc);
+    const vxt_mesh_view mesh = cMesh(halfOpaque().mesh);
+    vxt_mesh* none = nullptr;
+    EXPECT_EQ(vxt_mesh_create(own.get(), &mesh, nullptr, &none), VXT_ERROR_OUT_OF_MEMORY);
+    EXPECT_EQ(asked, "mesh");
+}
+
 TEST_F(CGpuTest, LocksTheCallersQueue) {
     struct Calls {
         int locked = 0;
