@@ -23,7 +23,7 @@ inline constexpr double kDefaultTolerance = 0.01;
 /// Two points as far apart as `hi` says, and how the clearance changes with the pose. The same point twice where the
 /// pair touches.
 struct WitnessPoints {
-    std::uint32_t triangle = 0; ///< number in the mesh
+    std::uint32_t triangle = 0; ///< number in the mesh; kInsideMesh: both points are one inside of it
     Vec3 mesh{};                ///< on that triangle, world mm
     /// Opaque, world mm. Where the opaque part is thinner than rounding can hit (a peak of the transfer function, and
     /// the threshold at its top), a point close to it: an opaque point is then no farther from the triangle, and not

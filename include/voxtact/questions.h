@@ -23,7 +23,7 @@ struct Touch {
     double margin = 0; ///< mm: is anything opaque at most that far from the surface?
     /// At any pose that is off by at most this? Not with a margin; the answers have no witness points.
     std::optional<PoseTolerance> uncertainty{};
-    /// Finds a witness point of each yes, which takes longer. An enclosed region has none.
+    /// Finds a witness point of each yes, which takes longer. Of an enclosed region it is inside the mesh.
     bool witness = false;
     /// The inside of the mesh, which must be closed, touches too: a mesh that encloses an opaque region is a yes.
     bool solid = false;
@@ -52,8 +52,8 @@ struct Distance {
     /// two labels belongs to both. Labels that a map does not have are infinitely far.
     std::optional<std::vector<std::int32_t>> labels{};
     bool labelsAtAnyOpacity = false; ///< to all of a label; false: to the part of it that is opaque
-    /// From the inside of the mesh, too, which must be closed: an enclosed opaque region is at distance 0. Not with
-    /// labels.
+    /// From the inside of the mesh, too, which must be closed: an enclosed opaque region is at distance 0, with a
+    /// witness point inside the mesh. Not with labels.
     bool solid = false;
     double resolution = kDefaultResolution; ///< as in Touch
     std::uint64_t maxSteps = 1U << 18U;     ///< a pair that takes more is left with the bounds it has; at least 1

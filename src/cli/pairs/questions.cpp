@@ -16,6 +16,7 @@ constexpr const char* kTouchFooter =
   touch     0 no, 1 yes: both proven; 2 undecided: rounding decides
   x,y,z     witness point: opaque, on the triangle or within --margin of it, to
             rounding; by the host engine, without --uncertainty
+  triangle  empty: with --solid, the point is inside the mesh
   label     of the label map at that point
 Only the surface touches, unless --solid: a mesh that encloses an opaque region
 does not.
