@@ -34,10 +34,13 @@ enum class Verdict : std::uint32_t {
 /// Returns "no", "yes" or "undecided", with static lifetime.
 [[nodiscard]] VOXTACT_API const char* toString(Verdict verdict) noexcept;
 
+/// Triangle of a witness point inside the mesh of a question with `solid`: it is on no triangle.
+inline constexpr std::uint32_t kInsideMesh = 0xffffffffU;
+
 /// A point that proves a yes.
 struct WitnessPoint {
-    Vec3 position{};            ///< world mm: opaque, within the margin of the triangle
-    std::uint32_t triangle = 0; ///< index of the triangle in the mesh
+    Vec3 position{};            ///< world mm: opaque, and at most the margin from the triangle, or inside the mesh
+    std::uint32_t triangle = 0; ///< number in the mesh, or kInsideMesh
 };
 
 /// The verdict on one pair.

@@ -48,9 +48,10 @@ inline constexpr std::array kTouchColumns{
     VOXTACT_COLUMN(TouchRow, "pairs", pose, "", "", "number of the pose in the item"),
     VOXTACT_COLUMN(TouchRow, "pairs", touch, "", kVerdicts, "whether it touches, certified"),
     VOXTACT_COLUMN(TouchRow, "pairs", witness, "", "", "1: there is a witness point"),
-    VOXTACT_COLUMN(TouchRow, "pairs", triangle, "", "", "triangle of the witness point: number in the mesh"),
+    VOXTACT_COLUMN(TouchRow, "pairs", triangle, "", "",
+                   "triangle of the witness point: number in the mesh; 4294967295: the point is inside the mesh"),
     VOXTACT_COLUMN(TouchRow, "pairs", point, "mm", "",
-                   "witness point, world: opaque, within the margin of the triangle"),
+                   "witness point, world: opaque, within the margin of the triangle, or inside the mesh"),
 };
 
 struct CountRow {
@@ -144,7 +145,9 @@ inline constexpr std::array kDistanceColumns{
     VOXTACT_COLUMN(DistanceRow, "pairs", upper, "mm", "", "some point is as near; infinite where none is known"),
     VOXTACT_COLUMN(DistanceRow, "pairs", end, "", kStopReasons, "why the search ended"),
     VOXTACT_COLUMN(DistanceRow, "pairs", witness, "", "", "1: there are closest points"),
-    VOXTACT_COLUMN(DistanceRow, "pairs", triangle, "", "", "triangle of the closest point: number in the mesh"),
+    VOXTACT_COLUMN(
+        DistanceRow, "pairs", triangle, "", "",
+        "triangle of the closest point: number in the mesh; 4294967295: both points are one inside the mesh"),
     VOXTACT_COLUMN(DistanceRow, "pairs", on_mesh, "mm", "", "closest point of the surface, world"),
     VOXTACT_COLUMN(DistanceRow, "pairs", in_volume, "mm", "", "closest opaque point, world"),
     VOXTACT_COLUMN(DistanceRow, "pairs", per_translation, "mm/mm", "", "change when the mesh moves along x, y, z"),

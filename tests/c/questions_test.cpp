@@ -309,6 +309,28 @@ TEST_F(CQuestions, ThatAreZeroOrNullAreTheDefaults) {
     expectDefault(sized<vxt_motion>(), Motion{});
 }
 
+TEST_F(CQuestions, SolidsHaveAPointInside) {
+    RandomScene scene = plainScene();
+    scene.mesh = makeCube(-20, 40);
+    scene.poses = {identity(), translation({100, 0, 0})};
+    const BothInterfaces both(scene, plainLabels());
+    vxt_touch touch = sized<vxt_touch>();
+    touch.witness = 1;
+    touch.solid = 1;
+    const TouchAnswer touched = compare(both, scene, touch, Touch{.witness = true, .solid = true});
+    EXPECT_EQ(touched.pairs.at(0).touch, Verdict::Yes);
+    EXPECT_EQ(touched.pairs.at(1).touch, Verdict::No);
+    ASSERT_TRUE(touched.pairs[0].witness.has_value());
+    EXPECT_EQ(touched.pairs[0].witness->triangle, kInsideMesh);
+    vxt_distance distance = sized<vxt_distance>();
+    distance.solid = 1;
+    const DistanceAnswer measured = compare(both, scene, distance, Distance{.solid = true});
+    EXPECT_EQ(measured.pairs.at(0).bounds.upper, 0);
+    EXPECT_GT(measured.pairs.at(1).bounds.lower, 70);
+    ASSERT_TRUE(measured.pairs[0].closest.has_value());
+    EXPECT_EQ(measured.pairs[0].closest->triangle, kInsideMesh);
+}
+
 TEST_F(CQuestions, MeasureALabelAtAnyOpacity) {
     RandomScene scene = plainScene();
     scene.poses.resize(1);

@@ -93,9 +93,15 @@ TEST_F(OverlapTest, SolidsTouchWhatTheyEnclose) {
         return rowsOf(output(all)).at(0);
     };
     EXPECT_EQ(ask("touch", {}).at("touch"), "0");
-    EXPECT_EQ(ask("touch", {"--solid"}).at("touch"), "1");
+    const auto inside = ask("touch", {"--solid"});
+    EXPECT_EQ(inside.at("touch"), "1");
+    EXPECT_EQ(inside.at("triangle"), "");
+    EXPECT_LT(std::stod(inside.at("z")), 10);
     EXPECT_GT(std::stod(ask("distance", {}).at("lower")), 8);
-    EXPECT_EQ(ask("distance", {"--solid"}).at("upper"), "0");
+    EXPECT_EQ(ask("distance", {"--solid", "--witness", path("near.csv")}).at("upper"), "0");
+    const auto near = rowsOf(readText(path("near.csv"))).at(0);
+    EXPECT_EQ(near.at("triangle"), "");
+    EXPECT_EQ(near.at("mesh_z"), near.at("volume_z"));
 }
 
 } // namespace

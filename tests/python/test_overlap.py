@@ -114,6 +114,26 @@ def test_an_enclosed_ball():
     assert not scene.distance(cube(16), placed((10, 10, 10))).lower[0] == 0, "its surface touches nothing"
 
 
+def test_solids():
+    scene, poses = ball_scene(), placed((10, 10, 10), (17, 10, 10), (200, 0, 0))
+    found = scene.touch(cube(16), poses, solid=True, witness=True)
+    assert found.touches.tolist() == [True, True, False] and not found.undecided.any()
+    assert found.witness["triangle"][0] == -1 and found.witness["triangle"][1] >= 0
+    assert np.linalg.norm(found.witness["position"][0] - 10) < 4.2 and np.isnan(found.witness["position"][2]).all()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert scene.touch(cube(16), poses[0], solid=True).touches.tolist() == [True]
+    far = scene.distance(cube(16), poses, solid=True)
+    assert far.upper.tolist()[:2] == [0, 0] and far.lower[2] == scene.distance(cube(16), poses[2]).lower[0]
+    inside = far.closest[0]
+    assert inside["triangle"] == -1 and (inside["mesh"] == inside["volume"]).all() and not inside["per_translation"].any()
+    with pytest.raises(vx.InvalidArgumentError, match="1 hole"):
+        scene.touch(holed(16.0), poses, solid=True)
+    labelled = vx.Scene(scene.volume, opacity=[(99, 0), (101, 1)], labels=vx.read_labels(scene.volume))
+    with pytest.raises(vx.InvalidArgumentError, match="leave out solid"):
+        labelled.distance(cube(16), poses, labels=[200], solid=True)
+
+
 def test_refusals(scene, knife):
     pose = np.eye(4)
     for wrong, text in (({"bands": []}, "bands"), ({"bands": [[1, 2]]}, "bands"), ({"bands": [3, 2]}, "band"), ({"bands": [np.nan]}, "band"),

@@ -439,7 +439,7 @@ def test_what_is_enclosed_is_warned_of():
     with pytest.warns(UserWarning, match="arrays encloses an opaque region at"):
         answer = scene.count(cube(100), np.eye(4))
     assert not answer.touches.any() and answer.count_exact.all()
-    with pytest.warns(UserWarning, match="ask overlap"):
+    with pytest.warns(UserWarning, match=r"ask touch\(solid=True\)"):
         assert not vx.Scene(scene.volume, opacity=[(99, 0), (101, 1)]).touch(cube(100), np.eye(4)).touches[0]
     with warnings.catch_warnings():
         warnings.simplefilter("error")

@@ -77,8 +77,9 @@ void writeCsv(std::ostream& out, const PairOptions& options, const PairInputs& i
         const WitnessPoints& closest = entry.closest;
         const std::int32_t label = labelOf(inputs, closest.volume);
         out << entry.pose << ',' << io::csvField(jobs.meshes[job.mesh]) << ',' << io::csvField(jobs.volumes[job.volume])
-            << ',' << closest.triangle << ',' << joined(closest.mesh, ',') << ',' << joined(closest.volume, ',') << ','
-            << label << ',' << joined(closest.perTranslation, ',') << ',' << joined(closest.perRotation, ',')
+            << ',' << (closest.triangle == kInsideMesh ? "" : std::to_string(closest.triangle)) << ','
+            << joined(closest.mesh, ',') << ',' << joined(closest.volume, ',') << ',' << label << ','
+            << joined(closest.perTranslation, ',') << ',' << joined(closest.perRotation, ',')
             << (named ? ',' + io::csvField(labelName(inputs, label)) : "") << '\n';
     }
 }

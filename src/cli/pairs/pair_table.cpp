@@ -75,7 +75,9 @@ void PairColumns::addTouch(const PairInputs& inputs) {
     }
     columns_.push_back({"triangle", [](const Line& line) {
                             const std::optional<WitnessPoint>& witness = line.row->witness;
-                            return witness ? io::Cell(std::uint64_t{witness->triangle}) : io::Cell();
+                            return witness && witness->triangle != kInsideMesh
+                                       ? io::Cell(std::uint64_t{witness->triangle})
+                                       : io::Cell();
                         }});
     const auto labelOf = [&inputs](const Line& line) {
         return inputs.labels->values[labelAt(*inputs.labels, line.row->witness->position)];

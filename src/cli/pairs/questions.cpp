@@ -17,6 +17,7 @@ constexpr const char* kTouchFooter =
             deflection of STEP and IGES, whose yes is about the triangles
   x,y,z     witness point: opaque, on the triangle or within --margin of it, to
             rounding; by the host engine, without --uncertainty
+  triangle  empty: with --solid, the point is inside the mesh
   label     of the label map at that point
 Without --solid only the surface counts: a mesh that encloses an opaque region
 does not touch it.

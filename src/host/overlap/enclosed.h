@@ -2,31 +2,32 @@
 #pragma once
 
 #include "core/base/try.h"
-#include "voxtact/cpu.h"
+#include "host/host_engine.h"
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace voxtact::cpu {
 
-/// Refuses meshes without an inside.
-[[nodiscard]] inline Result<void> checkSolids(HostEngine& engine, const Batch& batch) {
-    std::vector<BatchItem> items(batch.items.begin(), batch.items.end());
-    for (BatchItem& item : items) {
-        item.world_from_object = {};
-    }
-    Batch noPoses = batch;
-    noPoses.items = items;
-    VOXTACT_TRY(engine.ask(Overlap{}, noPoses));
-    return {};
-}
+/// Whether anything opaque is inside the mesh of a pair.
+struct Enclosed {
+    Verdict verdict = Verdict::No;
+    std::optional<Vec3> point; ///< of a yes: certainly opaque and inside, world mm; nothing where rounding hides it
+};
 
-/// Calls `use(pair, containment)` for the pairs of a batch that `isFree(pair)` says: whose surface certainly touches
-/// nothing opaque, so that each opaque component is inside the mesh or outside.
+/// Refuses meshes without an inside.
+[[nodiscard]] Result<void> checkSolids(HostEngineImpl& impl, const Batch& batch);
+
+/// One for each pair of a batch. `tolerance`: of the overlap that decides, mm^3.
+[[nodiscard]] Result<std::vector<Enclosed>> enclosedIn(HostEngineImpl& impl, const Batch& batch, double tolerance);
+
+/// Calls `use(pair, enclosed)` for the pairs of a batch that `isFree(pair)` says: whose surface does not certainly
+/// touch.
 template <class Pair, class IsFree, class Use>
-[[nodiscard]] Result<void> forEnclosed(HostEngine& engine, const Batch& batch, std::vector<Pair>& pairs,
+[[nodiscard]] Result<void> forEnclosed(HostEngineImpl& impl, const Batch& batch, std::vector<Pair>& pairs,
                                        const IsFree& isFree, const Use& use) {
-    constexpr double kCoarse = 1e300; // mm^3: what cells and bricks say is mostly enough
+    constexpr double kCoarse = 1e300; // mm^3: the ranges of cells and bricks mostly decide
     constexpr double kFine = 1e-3;
     std::vector<Pair*> open;
     for (Pair& pair : pairs) {
@@ -42,15 +43,15 @@ template <class Pair, class IsFree, class Use>
         }
         Batch asked = batch;
         asked.items = items;
-        const Result<OverlapAnswer> answer = engine.ask(Overlap{.tolerance = tolerance}, asked);
-        VOXTACT_TRY(answer);
+        const Result<std::vector<Enclosed>> enclosed = enclosedIn(impl, asked, tolerance);
+        VOXTACT_TRY(enclosed);
         std::vector<Pair*> left;
         for (std::size_t i = 0; i < open.size(); ++i) {
-            const Containment inside = answer->pairs[i].inside;
-            if (inside == Containment::Undecided && tolerance == kCoarse) {
+            const Enclosed& one = (*enclosed)[i];
+            if (one.verdict == Verdict::Undecided && tolerance == kCoarse) {
                 left.push_back(open[i]);
             } else {
-                use(*open[i], inside);
+                use(*open[i], one);
             }
         }
         open = std::move(left);

@@ -9,6 +9,7 @@
 #include "host/batch_check.h"
 #include "host/host_engine.h"
 #include "host/overlap/containment.h"
+#include "host/overlap/enclosed.h"
 #include "host/overlap/overlap_pair.h"
 #include "host/search/label_part.h"
 #include "host/search/workers.h"
@@ -75,9 +76,6 @@ constexpr std::size_t kKept = 16;
 } // namespace
 
 struct OverlapMeterImpl {
-    explicit OverlapMeterImpl(Workers& shared) : workers(shared) {}
-
-    Workers& workers;
     /// By volume, function and threshold; by volume and a limit of bands, which may be minus infinity.
     LastUsed<std::tuple<std::uint64_t, std::uint64_t, double>, const OverlapPart> parts;
     LastUsed<std::pair<std::uint64_t, double>, const OverlapPart> limits;
@@ -164,11 +162,14 @@ Result<void> makeItem(OverlapMeterImpl& impl, const Overlap& question, const Bat
     return {};
 }
 
-Result<Items> makeItems(OverlapMeterImpl& impl, const Overlap& question, const Batch& batch,
-                        const Cancellation& cancel) {
+Result<Items> makeItems(HostEngineImpl& impl, const Overlap& question, const Batch& batch, const Cancellation& cancel) {
+    VOXTACT_TRY(checkNotCancelled(cancel));
+    if (impl.overlap == nullptr) {
+        impl.overlap = std::make_shared<OverlapMeterImpl>();
+    }
     Items items;
     for (std::size_t i = 0; i < batch.items.size(); ++i) {
-        VOXTACT_TRY(makeItem(impl, question, batch, i, items));
+        VOXTACT_TRY(makeItem(*impl.overlap, question, batch, i, items));
         VOXTACT_TRY(checkNotCancelled(cancel));
     }
     return items;
@@ -181,6 +182,19 @@ struct MeasuredPair {
     std::uint32_t pose = 0;
     PairMeasures measures;
 };
+
+Result<std::vector<MeasuredPair>> measurePairs(HostEngineImpl& impl, const Overlap& question, const Batch& batch,
+                                               const Items& items, const Cancellation& cancel) {
+    std::vector<MeasuredPair> pairs = numberedPairs<MeasuredPair>(batch);
+    VOXTACT_TRY(impl.workers.forEach(pairs, cancel, [&](MeasuredPair& pair, ThreadMemory& memory) {
+        const BatchItem& item = batch.items[pair.item];
+        std::unique_ptr<PairSurface> surface = impl.overlap->surfaces.take();
+        pair.measures = measurePair(question, items.items[pair.item], item, item.world_from_object[pair.pose],
+                                    {memory.mesh, *surface}, &cancel);
+        impl.overlap->surfaces.giveBack(std::move(surface));
+    }));
+    return pairs;
+}
 
 OverlapAnswer answerOf(const Overlap& question, const Items& items, const std::vector<MeasuredPair>& pairs) {
     OverlapAnswer answer;
@@ -204,26 +218,43 @@ OverlapAnswer answerOf(const Overlap& question, const Items& items, const std::v
 
 } // namespace
 
+Result<void> checkSolids(HostEngineImpl& impl, const Batch& batch) {
+    VOXTACT_TRY(makeItems(impl, {}, batch, Cancellation(batch.cancel)));
+    return {};
+}
+
+Result<std::vector<Enclosed>> enclosedIn(HostEngineImpl& impl, const Batch& batch, double tolerance) {
+    const Overlap question{.tolerance = tolerance};
+    const Cancellation cancel(batch.cancel);
+    Result<Items> items = makeItems(impl, question, batch, cancel);
+    VOXTACT_TRY(items);
+    for (OverlapItem& item : items->items) {
+        item.wantsPoint = true;
+    }
+    const Result<std::vector<MeasuredPair>> pairs = measurePairs(impl, question, batch, *items, cancel);
+    VOXTACT_TRY(pairs);
+    std::vector<Enclosed> out;
+    for (const MeasuredPair& pair : *pairs) {
+        const Containment inside = pair.measures.whole.inside;
+        const std::optional<Vec3>& point = pair.measures.inside;
+        out.push_back({inside == Containment::None                  ? Verdict::No
+                       : inside == Containment::Undecided && !point ? Verdict::Undecided
+                                                                    : Verdict::Yes,
+                       point});
+    }
+    return out;
+}
+
 Result<OverlapAnswer> HostEngine::ask(const Overlap& question, const Batch& batch) {
     return guard([&]() -> Result<OverlapAnswer> {
         const StopWatch watch;
         VOXTACT_TRY(checkQuestion(question, batch));
         const Cancellation cancel(batch.cancel);
-        VOXTACT_TRY(checkNotCancelled(cancel));
-        if (impl_->overlap == nullptr) {
-            impl_->overlap = std::make_shared<OverlapMeterImpl>(impl_->workers);
-        }
-        const Result<Items> items = makeItems(*impl_->overlap, question, batch, cancel);
+        const Result<Items> items = makeItems(*impl_, question, batch, cancel);
         VOXTACT_TRY(items);
-        std::vector<MeasuredPair> pairs = numberedPairs<MeasuredPair>(batch);
-        VOXTACT_TRY(impl_->workers.forEach(pairs, cancel, [&](MeasuredPair& pair, ThreadMemory& memory) {
-            const BatchItem& item = batch.items[pair.item];
-            std::unique_ptr<PairSurface> surface = impl_->overlap->surfaces.take();
-            pair.measures = measurePair(question, items->items[pair.item], item, item.world_from_object[pair.pose],
-                                        {memory.mesh, *surface}, &cancel);
-            impl_->overlap->surfaces.giveBack(std::move(surface));
-        }));
-        OverlapAnswer answer = answerOf(question, *items, pairs);
+        const Result<std::vector<MeasuredPair>> pairs = measurePairs(*impl_, question, batch, *items, cancel);
+        VOXTACT_TRY(pairs);
+        OverlapAnswer answer = answerOf(question, *items, *pairs);
         answer.wallMilliseconds = watch.milliseconds();
         return answer;
     });

@@ -2,6 +2,7 @@
 #include "host/overlap/overlap_pair.h"
 #include "core/base/infinity.h"
 #include "host/overlap/containment.h"
+#include "host/overlap/inside_point.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -69,6 +70,9 @@ class PairRun {
         surface_.begin(*made_.solid, mesh_, volume_, space_, isMirrored, cancel_);
         error_ = surface_.displaced() * (1 + 0x1p-40);
         out_.whole = measure(*made_.part, nullptr).front();
+        if (made_.wantsPoint && out_.whole.inside != Containment::None) {
+            out_.inside = opaquePointInside(volume_, *made_.part, surface_, mesh_, cancel_);
+        }
         if (made_.labels != nullptr) {
             out_.labels = measure(*made_.part, made_.labels);
         }

@@ -9,6 +9,7 @@
 #include "voxtact/overlap.h"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace voxtact::cpu {
@@ -20,6 +21,7 @@ struct OverlapItem {
     /// What is no less than each limit of bands, and before these all of the volume; empty: no bands.
     std::vector<std::shared_ptr<const OverlapPart>> limits;
     const OverlapLabels* labels = nullptr; ///< null: no labels
+    bool wantsPoint = false;               ///< PairMeasures::inside
 };
 
 /// mm^3.
@@ -35,6 +37,7 @@ struct PairMeasures {
     Bounds solid;
     std::vector<Measure> bands;
     std::vector<Measure> labels; ///< by slot
+    std::optional<Vec3> inside;  ///< where it is asked for: a point that is certainly opaque and inside, world mm
 };
 
 /// What is kept from pair to pair, one thread's.

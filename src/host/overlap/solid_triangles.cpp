@@ -15,22 +15,15 @@ namespace {
 
 using glm::dvec3;
 
-/// Directions of rays, at odd angles, so that hardly one meets an edge.
-constexpr std::array<std::array<double, 3>, 12> kRays{{{0.8191, 0.4717, 0.3265},
-                                                       {-0.4331, 0.7877, 0.4380},
-                                                       {0.2713, -0.5179, 0.8113},
-                                                       {-0.6971, -0.3593, -0.6203},
-                                                       {0.3371, 0.2297, -0.9129},
-                                                       {-0.1373, -0.9419, -0.3067},
-                                                       {0.9557, -0.1091, 0.2731},
-                                                       {0.0919, 0.9871, -0.1307},
-                                                       {-0.9029, 0.1931, 0.3833},
-                                                       {0.5303, -0.7433, -0.4073},
-                                                       {-0.2399, 0.3467, -0.9067},
-                                                       {0.6113, 0.6703, 0.4201}}};
+/// 1 if the second triangle has the vertices of the first in the same order, -1 in the other one.
+int turnOf(const std::array<std::uint32_t, 3>& a, const std::array<std::uint32_t, 3>& b) {
+    const auto at = static_cast<std::size_t>(std::ranges::find(b, a[0]) - b.begin());
+    return b[(at + 1) % 3] == a[1] ? 1 : -1;
+}
 
-/// Whether the ray may meet a box.
-bool mayMeet(const dvec3& origin, const dvec3& direction, const SolidBox& box) {
+} // namespace
+
+bool mayMeet(const dvec3& origin, const dvec3& direction, const SolidBox& box) noexcept {
     const auto& [lo, hi] = box;
     double from = 0;
     double to = std::numeric_limits<double>::infinity();
@@ -43,14 +36,6 @@ bool mayMeet(const dvec3& origin, const dvec3& direction, const SolidBox& box) {
     }
     return from * (1 - 0x1p-40) <= to * (1 + 0x1p-40);
 }
-
-/// 1 if the second triangle has the vertices of the first in the same order, -1 in the other one.
-int turnOf(const std::array<std::uint32_t, 3>& a, const std::array<std::uint32_t, 3>& b) {
-    const auto at = static_cast<std::size_t>(std::ranges::find(b, a[0]) - b.begin());
-    return b[(at + 1) % 3] == a[1] ? 1 : -1;
-}
-
-} // namespace
 
 SolidTriangles::SolidTriangles(const MeshImpl& mesh)
     : mesh_(mesh), triangles_(mesh.numbers.size()), weights_(mesh.numbers.size(), 0) {

@@ -25,6 +25,22 @@ struct SolidBox {
     }
 };
 
+/// Directions of rays, at odd angles, so that hardly one meets an edge.
+inline constexpr std::array<std::array<double, 3>, 12> kRays{{{0.8191, 0.4717, 0.3265},
+                                                              {-0.4331, 0.7877, 0.4380},
+                                                              {0.2713, -0.5179, 0.8113},
+                                                              {-0.6971, -0.3593, -0.6203},
+                                                              {0.3371, 0.2297, -0.9129},
+                                                              {-0.1373, -0.9419, -0.3067},
+                                                              {0.9557, -0.1091, 0.2731},
+                                                              {0.0919, 0.9871, -0.1307},
+                                                              {-0.9029, 0.1931, 0.3833},
+                                                              {0.5303, -0.7433, -0.4073},
+                                                              {-0.2399, 0.3467, -0.9067},
+                                                              {0.6113, 0.6703, 0.4201}}};
+/// Whether a ray may meet a box.
+[[nodiscard]] bool mayMeet(const glm::dvec3& origin, const glm::dvec3& direction, const SolidBox& box) noexcept;
+
 /// The triangles of a mesh with welded vertices, by their places in its arrays. Of triangles with the same vertices the
 /// first one stands for all.
 class SolidTriangles {

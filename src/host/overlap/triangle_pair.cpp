@@ -21,10 +21,10 @@ struct Axis {
     dvec3 along{};
     double scale = 0;
 
-    /// The certain sign of a point's product with it, or 0.
-    [[nodiscard]] int sign(const dvec3& point) const noexcept {
+    /// The certain sign of a point's product with it, or 0. `slack`: the product may be off by this, besides rounding.
+    [[nodiscard]] int sign(const dvec3& point, double slack = 0) const noexcept {
         const double product = glm::dot(along, point);
-        const double error = kAxisError * scale * glm::length(point);
+        const double error = kAxisError * scale * glm::length(point) + slack;
         return product > error ? 1 : (product < -error ? -1 : 0);
     }
 };
@@ -173,18 +173,22 @@ bool certainlyApart(const SolidTriangle& a, const SolidTriangle& b) noexcept {
     return shared == 2 && sideShared(ofA[sharedA[1]], ofA[3 - i - sharedA[1]], ofB[3 - j - sharedB[1]]);
 }
 
-Crossing crossingOf(const std::array<dvec3, 3>& corners, const dvec3& direction) noexcept {
+Crossing crossingOf(const std::array<dvec3, 3>& corners, const dvec3& direction, double off) noexcept {
+    // A cross product of two corners changes by at most (|a| + |b| + off) * off, and a determinant of all three by less
+    // than off times the square of the sum.
+    const double lengths = glm::length(corners[0]) + glm::length(corners[1]) + glm::length(corners[2]) + off;
+    const double slack = off * lengths * glm::length(direction) * (1 + 0x1p-40);
     std::array<int, 3> sides{};
     for (std::size_t i = 0; i < 3; ++i) {
-        sides[i] = crossed(corners[i], corners[(i + 1) % 3]).sign(direction);
+        sides[i] = crossed(corners[i], corners[(i + 1) % 3]).sign(direction, slack);
     }
     const auto [least, greatest] = std::ranges::minmax(sides);
     if (least < 0 && greatest > 0) {
         return Crossing::No;
     }
     const Axis normal = crossed(corners[1] - corners[0], corners[2] - corners[0]);
-    const int away = normal.sign(corners[0]); // of the plane from the origin, along the normal
-    const int along = normal.sign(direction);
+    const int away = normal.sign(corners[0], off * lengths * lengths); // of the plane, along the normal
+    const int along = normal.sign(direction, 3 * slack);
     if (away * along < 0) {
         return Crossing::No;
     }

@@ -19,7 +19,9 @@ struct SolidTriangle {
 
 /// Whether a ray crosses a triangle.
 enum class Crossing : std::uint8_t { No, Leaves, Enters, Unknown };
-/// The triangle's corners relative to the ray's origin. Leaves: along the triangle's normal.
-[[nodiscard]] Crossing crossingOf(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& direction) noexcept;
+/// The triangle's corners relative to the ray's origin, none of which is off by more than `off`. Leaves: along the
+/// triangle's normal.
+[[nodiscard]] Crossing crossingOf(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& direction,
+                                  double off = 0) noexcept;
 
 } // namespace voxtact::cpu

@@ -193,6 +193,21 @@ Result<DistanceAnswer> measureLabels(HostEngineImpl& impl, const Distance& quest
     return answer;
 }
 
+/// The distance of a solid from that of its surface.
+void setEnclosed(PairDistance& pair, const Enclosed& enclosed) {
+    if (enclosed.verdict == Verdict::Undecided && pair.bounds.lower > 0) {
+        pair.bounds.lower = 0;
+        pair.end = StopReason::Rounding;
+    } else if (enclosed.verdict == Verdict::Yes) {
+        pair.bounds = {};
+        pair.end = StopReason::Closed;
+        pair.closest.reset();
+        if (enclosed.point) {
+            pair.closest = {.triangle = kInsideMesh, .mesh = *enclosed.point, .volume = *enclosed.point};
+        }
+    }
+}
+
 } // namespace
 
 Result<DistanceAnswer> HostEngine::ask(const Distance& question, const Batch& batch) {
@@ -201,23 +216,14 @@ Result<DistanceAnswer> HostEngine::ask(const Distance& question, const Batch& ba
         VOXTACT_TRY(checkDistance(question));
         VOXTACT_TRY(checkCertifiedBatch(batch));
         if (question.solid) {
-            VOXTACT_TRY(checkSolids(*this, batch));
+            VOXTACT_TRY(checkSolids(*impl_, batch));
         }
         Result<DistanceAnswer> answer =
             question.labels ? measureLabels(*impl_, question, batch) : measurePairs(*impl_, question, batch);
         if (answer.ok() && question.solid) {
             VOXTACT_TRY(forEnclosed(
-                *this, batch, answer->pairs, [](const PairDistance& pair) { return pair.bounds.lower > 0; },
-                [](PairDistance& pair, Containment inside) {
-                    if (inside == Containment::Undecided) {
-                        pair.bounds.lower = 0;
-                        pair.end = StopReason::Rounding;
-                    } else if (inside != Containment::None) {
-                        pair.bounds = {};
-                        pair.end = StopReason::Closed;
-                        pair.closest.reset();
-                    }
-                }));
+                *impl_, batch, answer->pairs, [](const PairDistance& pair) { return pair.bounds.upper > 0; },
+                &setEnclosed));
         }
         if (answer.ok()) {
             answer->wallMilliseconds = watch.milliseconds();

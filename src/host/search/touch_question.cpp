@@ -103,7 +103,7 @@ Result<TouchAnswer> HostEngine::ask(const Touch& question, const Batch& batch) {
         VOXTACT_TRY(checkTouch(question));
         VOXTACT_TRY(checkCertifiedBatch(batch));
         if (question.solid) {
-            VOXTACT_TRY(checkSolids(*this, batch));
+            VOXTACT_TRY(checkSolids(*impl_, batch));
         }
         Result<TouchAnswer> answer = question.uncertainty ? touchAround(*impl_, question, batch)
                                      : question.witness || question.margin > 0 || isCurved(batch)
@@ -111,11 +111,12 @@ Result<TouchAnswer> HostEngine::ask(const Touch& question, const Batch& batch) {
                                          : touchWithoutWitness(*impl_, question, batch);
         if (answer.ok() && question.solid) {
             VOXTACT_TRY(forEnclosed(
-                *this, batch, answer->pairs, [](const PairTouch& pair) { return pair.touch == Verdict::No; },
-                [](PairTouch& pair, Containment inside) {
-                    pair.touch = inside == Containment::None        ? Verdict::No
-                                 : inside == Containment::Undecided ? Verdict::Undecided
-                                                                    : Verdict::Yes;
+                *impl_, batch, answer->pairs, [](const PairTouch& pair) { return pair.touch != Verdict::Yes; },
+                [&](PairTouch& pair, const Enclosed& enclosed) {
+                    pair.touch = enclosed.verdict == Verdict::No ? pair.touch : enclosed.verdict;
+                    if (question.witness && !question.uncertainty && enclosed.point) {
+                        pair.witness = {*enclosed.point, kInsideMesh};
+                    }
                 }));
         }
         if (answer.ok()) {

@@ -19,6 +19,7 @@ _INSIDE = np.array(["none", "some", "all", "undecided"])
 _OUTPUTS = ("triangles", "contacts", "bounds", "labels")  # by the bits of vxt_output
 _ENDS = np.array(["closed", "beyond", "rounding", "budget"])
 _WITNESS = np.dtype([("triangle", np.int64), ("position", np.float64, 3), ("label", np.int32)], align=True)
+_INSIDE_MESH = 2**32 - 1  # triangle of a witness point that is on none
 _CLOSEST = np.dtype([("triangle", np.int64), ("mesh", np.float64, 3), ("volume", np.float64, 3),
                      ("per_translation", np.float64, 3), ("per_rotation", np.float64, 3)])
 
@@ -77,6 +78,11 @@ class Counters(NamedTuple):
     most_looks: int
     #: peak of bricks_left and cells_left together
     most_looks_left: int
+
+
+def _triangles_of(rows: npt.NDArray[Any]) -> npt.NDArray[np.int64]:
+    triangles = rows["triangle"].astype(np.int64)
+    return np.where((rows["witness"] == 0) | (triangles == _INSIDE_MESH), -1, triangles)
 
 
 class _Answer:
@@ -157,15 +163,16 @@ class Touch(_Decided):
     def witness(self) -> npt.NDArray[np.void]:
         """(N,): a witness point of each yes, with `witness=True`.
 
-        `triangle`, its index in the mesh, -1 without a witness point; `position` (3), LPS, mm: opaque, and on the
-        triangle or within the margin of it, else NaN; `label` there, 0 without a label map.
+        `position` (3), LPS, mm: opaque, and on the triangle or within the margin of it, or inside a solid; NaN without
+        a witness point. `triangle`: its number in the mesh; -1 inside a solid, and without a witness point. `label`
+        there, 0 without a label map.
         """
         if not self._with_witness:
             raise NotReadyError("the answer has no witness points; ask with touch(witness=True)")
         if self._witness is None:
             rows = self._tables.rows("pairs")
             found, some = np.zeros(len(rows), _WITNESS), rows["witness"] == 1
-            found["triangle"] = np.where(some, rows["triangle"].astype(np.int64), -1)
+            found["triangle"] = _triangles_of(rows)
             found["position"] = np.where(some[:, None], rows["point"], np.nan)
             if self._labels is not None:
                 found["label"][some] = self._labels.at(rows["point"][some])
@@ -353,7 +360,8 @@ class Distance(_Measured):
     def closest(self) -> npt.NDArray[np.void]:
         """(N,): two witness points of `upper`, LPS, mm, and the gradient of their distance with respect to the pose.
 
-        `triangle`, -1 without witness points, with NaN elsewhere; `mesh` (3) on the triangle; `volume` (3), opaque;
+        `triangle`, -1 without witness points, whose rest is NaN, and inside a solid, where both points are the same
+        one; `mesh` (3) on the triangle; `volume` (3), opaque;
         `per_translation` (3), mm per mm along the world's axes; `per_rotation` (3), mm per radian about axes through
         the object's origin.
         """
@@ -362,7 +370,7 @@ class Distance(_Measured):
         rows = self._tables.rows("pairs")
         found = np.empty(len(rows), _CLOSEST)
         none = rows["witness"] == 0
-        found["triangle"] = np.where(none, -1, rows["triangle"].astype(np.int64))
+        found["triangle"] = _triangles_of(rows)
         for name, column in (("mesh", "on_mesh"), ("volume", "in_volume"), ("per_translation", "per_translation"),
                              ("per_rotation", "per_rotation")):
             found[name] = np.where(none[:, None], np.nan, rows[column])

@@ -32,8 +32,8 @@ _MAX_HOST_PAIRS = 2**20
 _CALLER = 4
 _MAX_QUESTIONS = 64
 
-#: margin, distance and angle of the uncertainty, witness, resolution, max_steps; 0: the default
-TouchOptions = tuple[float, float, float, bool, float, int]
+#: margin, distance and angle of the uncertainty, witness, resolution, max_steps, solid; 0: the default
+TouchOptions = tuple[float, float, float, bool, float, int, bool]
 
 INTERPOLATIONS = ("screw", "slerp")
 
@@ -362,12 +362,13 @@ class Scene:
         return tables
 
     def distance(self, meshes: Any, poses: Any, tolerance: float, max_distance: float, max_steps: int, labels: Optional[list[int]],
-                  any_opacity: bool, progress: Tell) -> Tables:
+                  any_opacity: bool, solid: bool, progress: Tell) -> Tables:
         request = Request(meshes, poses)
         not_zero(tolerance, "distance", "tolerance")
         not_zero(max_distance, "distance", "max")
         wanted = _label_members(labels)
-        question = struct("distance", tolerance=tolerance, max=max_distance, max_steps=max_steps, any_opacity=any_opacity, **wanted)
+        question = struct("distance", tolerance=tolerance, max=max_distance, max_steps=max_steps, any_opacity=any_opacity, solid=solid,
+                          **wanted)
         cost = _DISTANCE_COST * (1 if labels is None else 1 + len(labels))
         return self._measured("distance", question, request, cost, progress)
 

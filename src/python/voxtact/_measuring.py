@@ -49,7 +49,7 @@ class Measuring:
     def distance(self, mesh: Union[Mesh, Sequence[tuple[Mesh, Poses]]], poses: Optional[Poses] = None, *,
                   tolerance: float = core.DEFAULT_TOLERANCE, max: float = INFINITE,
                   labels: Union[None, Literal[True], Sequence[Union[int, str]]] = None, any_opacity: bool = False,
-                  max_steps: int = core.DEFAULT_DISTANCE_STEPS, progress: Progress = None) -> Distance:
+                  solid: bool = False, max_steps: int = core.DEFAULT_DISTANCE_STEPS, progress: Progress = None) -> Distance:
         """Measures the distance from the mesh's surface to the opaque region, mm: certified bounds for each pose.
 
         tolerance
@@ -61,7 +61,10 @@ class Measuring:
             The scene's label map must be on its volume's grid. The distance to a label without voxels is infinite; a
             warning says so
         any_opacity
-            measures to the whole label, opaque or not
+            measures to all of each label, opaque or not
+        solid
+            measures from the inside of the mesh, too: an enclosed opaque region is at distance 0. The mesh must be closed;
+            not with labels
         max_steps
             iteration limit per pose
 
@@ -74,7 +77,7 @@ class Measuring:
         meshes, matrices = asked(mesh, poses, self._volume)
         with told(progress, pairs_in(meshes, matrices)) as tell:
             return Distance(self._core.distance(meshes, matrices, number(tolerance, "tolerance"), number(max, "max"), steps, wanted,
-                                                  bool(any_opacity), tell), wanted)
+                                                  bool(any_opacity), bool(solid), tell), wanted)
 
     def area(self, mesh: Union[Mesh, Sequence[tuple[Mesh, Poses]]], poses: Optional[Poses] = None, *,
              tolerance: float = core.DEFAULT_AREA_TOLERANCE,

@@ -108,11 +108,11 @@ class TouchQuestion:
     __slots__ = ("touch", "is_plain", "count_options")
 
     def __init__(self, margin: float = 0, distance: float = 0, angle: float = 0, witness: bool = False, resolution: float = 0,
-                 max_steps: int = 0) -> None:
+                 max_steps: int = 0, solid: bool = False) -> None:
         self.touch = struct("touch", margin=margin, uncertainty_distance=distance, uncertainty_angle=angle, witness=witness,
-                            resolution=resolution, max_steps=max_steps)
-        #: a device supports it by the options of a count
-        self.is_plain = margin == distance == angle == max_steps == 0 and not witness
+                            solid=solid, resolution=resolution, max_steps=max_steps)
+        #: a device has it, too, by the options of a count
+        self.is_plain = margin == distance == angle == max_steps == 0 and not witness and not solid
         self.count_options: dict[str, Any] = {"stop_at_first": True, **({"resolution": resolution} if resolution else {})}
 
 

@@ -53,7 +53,7 @@ _MAX_CONTACTS = 2**20
 _SAMPLES_PER_VOXEL = 1
 _MAX_DEPTH = 10.0
 _NO_MARGIN = 0.0
-_PLAIN_TOUCH = (0.0, 0.0, 0.0, False, 0.0, 0)
+_PLAIN_TOUCH = (0.0, 0.0, 0.0, False, 0.0, 0, False)
 
 
 def _uncertainty_of(given: Any) -> tuple[float, float]:
@@ -196,12 +196,12 @@ class Scene(Measuring):
     # Questions
 
     def touch(self, mesh: Union[Mesh, Sequence[tuple[Mesh, Poses]]], poses: Optional[Poses] = None, *, margin: float = _NO_MARGIN,
-              uncertainty: Optional[tuple[float, float]] = None, witness: bool = False, resolution: float = RESOLUTION,
-              max_steps: int = core.DEFAULT_TOUCH_STEPS, progress: Progress = None) -> Touch:
+              uncertainty: Optional[tuple[float, float]] = None, witness: bool = False, solid: bool = False,
+              resolution: float = RESOLUTION, max_steps: int = core.DEFAULT_TOUCH_STEPS, progress: Progress = None) -> Touch:
         """Decides whether each pose touches: a `Touch` with a row for each pose, in order.
 
-        Only the surface of the mesh counts: a closed mesh that encloses an opaque region without touching it is a no. A
-        warning reports that the first pose encloses a region if no pose touches.
+        The mesh is its surface, unless `solid`: an opaque region that a closed mesh encloses without touching it is no
+        contact. A warning says so where the first pose encloses one and no pose touches.
 
         mesh, poses
             a mesh at poses, (N,4,4) or (4,4); or a list of (mesh, poses) alone
@@ -212,6 +212,8 @@ class Scene(Measuring):
             about any axis through the object's origin, and then translated by at most these mm
         witness
             finds a witness point of each yes: `Touch.witness`; not with an uncertainty
+        solid
+            the inside of the mesh touches, too: an enclosed opaque region is a contact. The mesh must be closed
         resolution
             voxels: minimum size of the pieces of a triangle
         max_steps
@@ -219,25 +221,26 @@ class Scene(Measuring):
         progress
             a function of (done, all), a bar of tqdm, or tqdm itself
 
-        A scene on a device answers there, except with margin, uncertainty, witness or max_steps: then the host answers.
+        A scene on a device answers there, without margin, uncertainty, witness, solid and max_steps; else the host answers.
         Raises InvalidArgumentError for shapes, NaN, and poses that are not affine (naming the first one).
         """
         options = _PLAIN_TOUCH
-        if (margin is not _NO_MARGIN or uncertainty is not None or witness or resolution is not RESOLUTION
+        if (margin is not _NO_MARGIN or uncertainty is not None or witness or solid or resolution is not RESOLUTION
                 or max_steps is not core.DEFAULT_TOUCH_STEPS):
             distance, angle = (0.0, 0.0) if uncertainty is None else _uncertainty_of(uncertainty)
             if witness and uncertainty is not None:
                 raise InvalidArgumentError("a touch has witness= or uncertainty=, not both")
             steps = whole_number(max_steps, "max_steps", 1)
             size = 0.0 if resolution is RESOLUTION else not_zero(number(resolution, "resolution"), "count", "resolution")
-            options = (number(margin, "margin"), distance, angle, bool(witness), size, 0 if steps == core.DEFAULT_TOUCH_STEPS else steps)
+            options = (number(margin, "margin"), distance, angle, bool(witness), size,
+                       0 if steps == core.DEFAULT_TOUCH_STEPS else steps, bool(solid))
         meshes, matrices = asked(mesh, poses, self._volume)
         if progress is None:
             tables = self._core.touch(meshes, matrices, options, None)
         else:
             with told(progress, pairs_in(meshes, matrices)) as tell:
                 tables = self._core.touch(meshes, matrices, options, tell)
-        if not self._warned and not tables.touches():
+        if not self._warned and not solid and not tables.touches():
             self._warn_of_enclosed(len(tables), mesh, matrices)
         return Touch(tables, None if self._labels is None else self._labels._core, options[3])
 
@@ -334,7 +337,7 @@ class Scene(Measuring):
         if place is not None:
             self._warned = True
             warnings.warn(f"{mesh.name} encloses an opaque region at {place.round(2).tolist()}, which its surface does not touch; "
-                          "ask overlap() for the volume inside", stacklevel=3)
+                          "ask touch(solid=True) or overlap() about the inside", stacklevel=3)
 
     def plan(self, target: npt.ArrayLike, *, avoid: Sequence[Union[int, str]] = (), avoid_opacity: Opacity = None,
              avoid_volume: Any = None, needle: Optional[tuple[float, float]] = None, mesh: Optional[Mesh] = None,

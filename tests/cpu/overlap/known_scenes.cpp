@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace voxtact::test {
 
@@ -215,6 +216,34 @@ KnownScene lensScene(std::mt19937_64& random) {
     const double area = 4 * 3.14159265 * std::min(radius, 6.0) * std::min(radius, 6.0);
     out.slack = area * (0.025 * radius + 0.01);
     return out;
+}
+
+double valueAt(const VolumeData& volume, const Vec3& index) {
+    const auto& size = volume.grid.size;
+    std::array<std::size_t, 3> first{};
+    Vec3 part{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double inside = std::clamp(index[axis], 0.0, size[axis] - 1.0);
+        first[axis] = static_cast<std::size_t>(inside);
+        part[axis] = inside - std::floor(inside);
+    }
+    std::array<double, 8> values{};
+    for (std::size_t corner = 0; corner < 8; ++corner) {
+        std::size_t at = 0;
+        for (std::size_t axis = 3; axis-- > 0;) {
+            at = at * size[axis] + std::min<std::size_t>(first[axis] + (corner >> axis & 1U), size[axis] - 1);
+        }
+        std::int16_t voxel = 0;
+        std::memcpy(&voxel, volume.voxels.data() + 2 * at, 2);
+        values[corner] = voxel;
+    }
+    // Of equal values nothing rounds.
+    for (std::size_t axis = 3; axis-- > 0;) {
+        for (std::size_t i = 0; i < std::size_t{1} << axis; ++i) {
+            values[i] += part[axis] * (values[i + (std::size_t{1} << axis)] - values[i]);
+        }
+    }
+    return values[0];
 }
 
 OracleScene opaqueScene(const MeshData& mesh, std::uint32_t side) {

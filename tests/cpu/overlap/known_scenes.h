@@ -26,6 +26,8 @@ struct KnownScene {
 /// Of the largest ball around the middle of the image in which linear images are linear, mm.
 [[nodiscard]] double linearRadius(const Grid& grid);
 [[nodiscard]] Vec3 middleOf(const Grid& grid);
+/// Of 16-bit voxels, at a place in index space.
+[[nodiscard]] double valueAt(const VolumeData& volume, const Vec3& index);
 
 /// Solids without self-intersections, somewhere in a linear image: a half space is opaque.
 [[nodiscard]] KnownScene halfSpaceScene(std::mt19937_64& random);

@@ -188,35 +188,6 @@ TEST(OverlapOracle, TheTruthIsBetweenTheBounds) {
     EXPECT_LT(tally.containments["undecided"], cases / 4);
 }
 
-/// Of 16-bit voxels, at a place in index space.
-double valueAt(const VolumeData& volume, const Vec3& index) {
-    const auto& size = volume.grid.size;
-    std::array<std::size_t, 3> first{};
-    Vec3 part{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double inside = std::clamp(index[axis], 0.0, size[axis] - 1.0);
-        first[axis] = static_cast<std::size_t>(inside);
-        part[axis] = inside - std::floor(inside);
-    }
-    std::array<double, 8> values{};
-    for (std::size_t corner = 0; corner < 8; ++corner) {
-        std::size_t at = 0;
-        for (std::size_t axis = 3; axis-- > 0;) {
-            at = at * size[axis] + std::min<std::size_t>(first[axis] + (corner >> axis & 1U), size[axis] - 1);
-        }
-        std::int16_t voxel = 0;
-        std::memcpy(&voxel, volume.voxels.data() + 2 * at, 2);
-        values[corner] = voxel;
-    }
-    // Of equal values nothing rounds.
-    for (std::size_t axis = 3; axis-- > 0;) {
-        for (std::size_t i = 0; i < std::size_t{1} << axis; ++i) {
-            values[i] += part[axis] * (values[i + (std::size_t{1} << axis)] - values[i]);
-        }
-    }
-    return values[0];
-}
-
 /// The crossings of a ray from a point along +x: how often it leaves, less how often it enters.
 int crossings(const MeshData& mesh, const Vec3& from) {
     int sum = 0;

@@ -177,6 +177,20 @@ MeshData randomSolid(std::mt19937_64& random, double size) {
     return chance(random, 0.3) ? unshared(mesh) : mesh;
 }
 
+int windingNumber(const MeshData& mesh, const Mat4& pose, const Vec3& point) {
+    double sum = 0;
+    for (const Corners& corners : trianglesOf(mesh, pose)) {
+        const Vec3 a = minus(corners[0], point);
+        const Vec3 b = minus(corners[1], point);
+        const Vec3 c = minus(corners[2], point);
+        const double x = length(a);
+        const double y = length(b);
+        const double z = length(c);
+        sum += 2 * std::atan2(dot(a, cross(b, c)), x * y * z + dot(a, b) * z + dot(b, c) * x + dot(c, a) * y);
+    }
+    return static_cast<int>(std::lround(sum / (4 * std::numbers::pi)));
+}
+
 double signedVolume(const MeshData& mesh, const Mat4& pose) {
     long double sum = 0;
     const std::vector<Corners> triangles = trianglesOf(mesh, pose);

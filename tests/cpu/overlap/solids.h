@@ -32,6 +32,8 @@ namespace voxtact::test {
 /// all are free of self-intersections, and parts may face inwards.
 [[nodiscard]] MeshData randomSolid(std::mt19937_64& random, double size);
 
+/// Of a surface after an affine map, at a point off it: the sum of the solid angles of its triangles.
+[[nodiscard]] int windingNumber(const MeshData& mesh, const Mat4& pose, const Vec3& point);
 /// Of a surface after an affine map: positive where it faces outwards.
 [[nodiscard]] double signedVolume(const MeshData& mesh, const Mat4& pose = identity());
 /// Of the part of a surface's signed volume where a linear function, `gradient` times the place plus `offset`, is at
