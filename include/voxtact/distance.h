@@ -23,7 +23,7 @@ inline constexpr double kDefaultTolerance = 0.01;
 /// Two points whose distance is `upper`, and the derivative of the distance with respect to the pose. If the pair
 /// touches, both points are equal.
 struct WitnessPoints {
-    std::uint32_t triangle = 0; ///< number in the mesh; kInsideMesh: both points are one inside of it
+    std::uint32_t triangle = 0; ///< index in the mesh; kInsideMesh: one point inside the mesh is both
     Vec3 mesh{};                ///< on that triangle, world mm
     /// Opaque, world mm. If the opaque region is thinner than rounding can resolve (a peak of the transfer function
     /// that just reaches the threshold), a point close to it. An opaque point is then no farther from the triangle than

@@ -115,7 +115,7 @@ struct MeshReadOptions {
     /// RAS: x and y are negated. Empty: the space in a header of STL, OBJ, PLY or VTK (`SPACE=RAS`, as 3D Slicer writes
     /// it), else LPS. A contradicting header is refused.
     std::optional<MeshSpace> space{};
-    double scale = 1; ///< millimetres per unit of the file, for STEP and IGES per mm; positive
+    double scale = 1;                       ///< millimetres per unit of the file, for STEP and IGES per mm; positive
     double deflection = kDefaultDeflection; ///< of the triangulation of STEP and IGES, mm; at least 1e-6
 };
 

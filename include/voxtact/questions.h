@@ -23,7 +23,7 @@ struct Touch {
     double margin = 0; ///< mm: is anything opaque within this distance of the surface?
     /// Tests all poses within this uncertainty. Not with a margin; the answers have no witness points.
     std::optional<PoseTolerance> uncertainty{};
-    /// Finds a witness point of each yes, which takes longer. Of an enclosed region it is inside the mesh.
+    /// Finds a witness point of each yes; slower. That of an enclosed region is inside the mesh.
     bool witness = false;
     /// Includes the inside of the mesh, which must be closed: a mesh that encloses an opaque region is a yes.
     bool solid = false;
@@ -50,8 +50,8 @@ struct Distance {
     /// the answer has labels instead of pairs. A label fills the closed boxes of its voxels, so a face between two
     /// labels belongs to both. The distance to a label that the map lacks is infinite.
     std::optional<std::vector<std::int32_t>> labels{};
-    bool labelsAtAnyOpacity = false; ///< to all of a label; false: to the part of it that is opaque
-    /// From the inside of the mesh, too, which must be closed: an enclosed opaque region is at distance 0, with a
+    bool labelsAtAnyOpacity = false; ///< measures to the whole label; false: to its opaque part
+    /// Includes the inside of the mesh, which must be closed: the distance to an enclosed opaque region is 0, with a
     /// witness point inside the mesh. Not with labels.
     bool solid = false;
     double resolution = kDefaultResolution; ///< as in Touch

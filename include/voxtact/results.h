@@ -40,7 +40,7 @@ inline constexpr std::uint32_t kInsideMesh = 0xffffffffU;
 /// A point that proves a yes.
 struct WitnessPoint {
     Vec3 position{};            ///< world mm: opaque, and at most the margin from the triangle, or inside the mesh
-    std::uint32_t triangle = 0; ///< number in the mesh, or kInsideMesh
+    std::uint32_t triangle = 0; ///< index of the triangle in the mesh, or kInsideMesh
 };
 
 /// The verdict on one pair.
