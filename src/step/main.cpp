@@ -135,7 +135,7 @@ int run(const std::string& path, double deflection) {
     const bool written =
         write(file, std::span<const io::CadHeader>(&out.header, 1)) && write(file, std::span<const char>(out.text)) &&
         write(file, std::span<const double>(out.positions)) && write(file, std::span<const std::uint32_t>(out.indices));
-    // Ends without destructors: those of OpenCASCADE's statics may crash behind a damaged file.
+    // Ends without destructors: those of OpenCASCADE's global objects may crash after a damaged file.
     std::_Exit(std::fclose(file) == 0 && written ? EXIT_SUCCESS : EXIT_FAILURE);
 }
 
