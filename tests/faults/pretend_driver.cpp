@@ -130,9 +130,9 @@ void PretendState::bind(Id memory, VkDeviceSize offset, VkDeviceSize size) {
         complain("something is bound to no memory, beyond it or not aligned");
         return;
     }
-    const auto next = found->bound.upper_bound(offset);
-    const bool overlapsNext = next != found->bound.end() && next->first < offset + size;
-    if (overlapsNext || (next != found->bound.begin() && std::prev(next)->second > offset)) {
+    const auto after = found->bound.upper_bound(offset);
+    const bool overlapsNext = after != found->bound.end() && after->first < offset + size;
+    if (overlapsNext || (after != found->bound.begin() && std::prev(after)->second > offset)) {
         complain("two objects are bound to the same memory");
     }
     found->bound[offset] = offset + size;

@@ -34,8 +34,8 @@ struct Counted {
 };
 Counted* counted = nullptr;
 
-VkResult VKAPI_PTR countedAllocate(VkDevice device, const VkMemoryAllocateInfo* info,
-                                   const VkAllocationCallbacks* callbacks, VkDeviceMemory* out) {
+VkResult VKAPI_PTR allocateAndCount(VkDevice device, const VkMemoryAllocateInfo* info,
+                                    const VkAllocationCallbacks* callbacks, VkDeviceMemory* out) {
     const std::lock_guard lock(counted->mutex);
     ++counted->calls;
     if (info->allocationSize > counted->limit) {
@@ -49,7 +49,7 @@ VkResult VKAPI_PTR countedAllocate(VkDevice device, const VkMemoryAllocateInfo* 
     return result;
 }
 
-void VKAPI_PTR countedFree(VkDevice device, VkDeviceMemory memory, const VkAllocationCallbacks* callbacks) {
+void VKAPI_PTR freeAndCount(VkDevice device, VkDeviceMemory memory, const VkAllocationCallbacks* callbacks) {
     const std::lock_guard lock(counted->mutex);
     counted->alive.erase(memory);
     counted->free(device, memory, callbacks);
@@ -131,8 +131,8 @@ class MemoryTest : public RawGpuTest {
             return;
         }
         loader_.emplace(gpu().instance.getInstanceProcAddr());
-        loader_->replace("vkAllocateMemory", &countedAllocate);
-        loader_->replace("vkFreeMemory", &countedFree);
+        loader_->replace("vkAllocateMemory", &allocateAndCount);
+        loader_->replace("vkFreeMemory", &freeAndCount);
         counted = &counted_;
         counted_.allocate = gpu().device.table().vkAllocateMemory;
         counted_.free = gpu().device.table().vkFreeMemory;
