@@ -63,12 +63,12 @@ TEST_F(MotionTest, HasARowForEachSegment) {
 
 /// The last digits decide which way round it goes.
 TEST_F(MotionTest, HalfTurnsAreNoted) {
-    const std::string start = "1 0 0 0  0 1 0 0  0 0 1 300  0 0 0 1\n";
+    const std::string start = "1 0 0 0  0 1 0 0  0 0 1 90  0 0 0 1\n";
     const auto turned = [](double degrees) {
         const double angle = degrees / 180 * 3.14159265358979323846;
         std::ostringstream text;
         text << std::setprecision(17) << std::cos(angle) << ' ' << -std::sin(angle) << " 0 0  " << std::sin(angle)
-             << ' ' << std::cos(angle) << " 0 0  0 0 1 300  0 0 0 1\n";
+             << ' ' << std::cos(angle) << " 0 0  0 0 1 90  0 0 0 1\n";
         return text.str();
     };
     const auto notes = [&](const std::string& poses, const Arguments& more = {}) {

@@ -94,7 +94,8 @@ def test_an_array_keeps_its_answer(head, knife):
 
 
 #: Of a fact, the argument of the package that it is the default of.
-ARGUMENTS = {("scene", "opacity_threshold"): (vx.Scene.__init__, "threshold"), ("count", "resolution"): (vx.Scene.count, "resolution"),
+ARGUMENTS = {("scene", "opacity_threshold"): (vx.Scene.__init__, "threshold"), ("scene", "deflection"): (vx.read_mesh, "deflection"),
+             ("count", "resolution"): (vx.Scene.count, "resolution"),
              ("count", "max_depth"): (vx.Scene.count, "max_depth"), ("distance", "tolerance"): (vx.Scene.distance, "tolerance"),
              ("area", "tolerance"): (vx.Scene.area, "tolerance"), ("overlap", "tolerance"): (vx.Scene.overlap, "tolerance"), ("motion", "resolution"): (vx.Scene.motion, "resolution"),
              ("plan", "tolerance"): (vx.Scene.plan, "tolerance"), ("plan", "margin"): (vx.Scene.plan, "margin")}

@@ -95,7 +95,7 @@ def test_curved_surfaces(tmp_path):
         make, (vertices, faces, name, notes, _) = flat.__reduce__()
         mesh = pickle.loads(pickle.dumps(make(vertices, faces, name, notes, deflection)))
         assert mesh.deflection == deflection
-        answer = scene.touch(mesh)
+        answer = scene.touch(mesh, np.eye(4))
         assert (answer.touches.any(), answer.undecided.any()) == (False, undecided)
         assert scene.touch([(mesh, np.eye(4))]).undecided.any() == undecided
         assert vx.read_mesh(mesh, scale=2).deflection == 2 * deflection

@@ -3,7 +3,6 @@
 
 #include "cli/options/inputs.h"
 #include "cli/options/opacity_notes.h"
-#include "cli/options/placement.h"
 #include "cli/output/standard_streams.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
@@ -145,18 +144,6 @@ Result<void> setLook(const RenderOptions& options, RenderInputs& inputs) {
     return {};
 }
 
-/// Notes meshes that lie beside the volume in every picture.
-Result<void> noteFar(const RenderOptions& options, RenderInputs& inputs) {
-    for (std::size_t mesh = 0; mesh < inputs.meshes.size(); ++mesh) {
-        const ReadMesh read{options.meshes.sources[mesh], options.meshes, inputs.bounds[mesh], inputs.poses,
-                            options.view.poses.empty() ? "" : options.view.posesSpace};
-        if (placementOf(read, inputs.volume.grid).distance > 0) {
-            printNote(farNote(read, options.volumes.front(), inputs.volume.grid, inputs.poses.size()));
-        }
-    }
-    return {};
-}
-
 /// Without contacts to show, opacity notes do not matter.
 Result<void> noteOpacity(const RenderOptions& options, RenderInputs& inputs) {
     if (!options.show.what.empty()) {
@@ -183,7 +170,7 @@ Result<void> setClearance(const RenderOptions& options, RenderInputs& inputs) {
 
 Result<RenderInputs> readRenderInputs(const RenderOptions& options) {
     RenderInputs inputs;
-    for (const auto read : {readMeshes, readVolume, noteFar, setCuts, setLook, noteOpacity, setClearance}) {
+    for (const auto read : {readMeshes, readVolume, setCuts, setLook, noteOpacity, setClearance}) {
         VOXTACT_TRY(read(options, inputs));
     }
     return inputs;

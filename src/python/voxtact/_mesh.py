@@ -201,18 +201,18 @@ def _of_vtk_mesh(mesh: Any, space: Space, scale: float) -> Mesh:
 
 
 def read_mesh(source: Any, *, space: Optional[Space] = None, scale: float = 1.0, deflection: float = 0.01) -> Mesh:
-    """A mesh from a file, from arrays, or from a mesh of another library.
+    """Reads a mesh from a file, arrays, or a mesh of another library.
 
     source
-        - a path: STL, OBJ, PLY, OFF, glTF or GLB, and STEP or IGES where the program voxtact-step lies beside the
-          library or Python; ``"builtin:scalpel"`` and the other names of the program's builtins
+        - a path: STL, OBJ, PLY, OFF, VTK, glTF or GLB; STEP or IGES if the program voxtact-step is in the folder of
+          the library or of Python; ``"builtin:scalpel"`` and the other names of the program's builtins
         - ``(vertices, faces)``: (V,3) numbers and (T,3) whole numbers
         - a trimesh (`.vertices`, `.faces`), a meshio mesh (triangles and quads), or a vtkPolyData
 
     space: of the vertices, "lps" unless it is said. "ras" negates x and y; what comes out is always LPS. An array with
     `affine` is "ras" unless it is said: where both meet in a scene and neither was said, a warning asks for it.
     scale: millimetres in a unit of the vertices; 1000 for metres.
-    deflection: mm: STEP and IGES are triangulated with it. `Mesh.deflection` is what was reached.
+    deflection: of the triangulation of STEP and IGES, mm. `Mesh.deflection` is the proven bound.
 
     Vertices are float64; `Mesh.notes` reports a loss above 0.0001 by single precision. Raises FileError, FormatError,
     and InvalidArgumentError, which names the vertex or face.

@@ -385,7 +385,7 @@ def read_volume(source: Any, *, affine: Optional[npt.ArrayLike] = None, space: O
     if isinstance(source, (str, bytes, os.PathLike)):
         if placed:
             raise InvalidArgumentError("affine=, space= and axes= are for arrays: a file says where its voxels are")
-        if is_builtin:
+        if isinstance(source, str) and is_builtin:
             if frame is not None or series:
                 raise InvalidArgumentError("frame= and series= are for files and nibabel's images")
             return Volume._of(core.Volume.builtin(encoded_text(source[len(BUILTIN):], "the name of the builtin")))

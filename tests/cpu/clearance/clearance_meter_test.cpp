@@ -231,8 +231,8 @@ TEST(Clearance, RefusesWhatItCannotUse) {
     EXPECT_EQ(refusedLabels(nullptr, one), "batch item 0: labels is null, and clearances to labels are asked for");
     EXPECT_EQ(
         refusedLabels(&coarse, one),
-        "batch item 0: the label map is not on the grid of the volume: its 4 x 4 x 4 voxels begin at voxel 0, 0, 0 "
-        "of the volume's 8 x 8 x 8; resample it to that");
+        "batch item 0: the label map is not on the grid of the volume: its spacing is 0.25, 0.25, 0.25 mm, that of the "
+        "volume 0.125, 0.125, 0.125 mm; resample it to that");
     EXPECT_NE(refusedLabels(&labels, std::vector<std::int32_t>(5000, 1)), "");
     LabelData beyond = labels;
     beyond.indices[5] = 60000;

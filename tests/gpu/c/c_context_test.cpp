@@ -109,7 +109,8 @@ TEST_F(CGpuTest, AsksTheCallersAllocatorForDeviceMemory) {
                    },
                    [](void*, const vxt_device_memory*) { FAIL() << "nothing was given"; }, &asked};
     const auto own = made(vxt_context_destroy, vxt_context_create, &desc);
-    const vxt_mesh_view mesh = cMesh(halfOpaque().mesh);
+    const auto scene = halfOpaque();
+    const vxt_mesh_view mesh = cMesh(scene.mesh);
     vxt_mesh* none = nullptr;
     EXPECT_EQ(vxt_mesh_create(own.get(), &mesh, nullptr, &none), VXT_ERROR_OUT_OF_MEMORY);
     EXPECT_EQ(asked, "mesh");
