@@ -38,7 +38,7 @@ std::filesystem::path converterPath() {
         files.insert(files.begin(), library.dli_fname);
     }
     for (const std::filesystem::path& file : files) {
-        const std::filesystem::path beside = file.parent_path() / kConverter;
+        std::filesystem::path beside = file.parent_path() / kConverter;
         // A relative name would be one in the current folder.
         if (file.is_absolute() && ::access(beside.c_str(), X_OK) == 0) {
             return beside;
