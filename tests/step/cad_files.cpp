@@ -16,6 +16,7 @@
 #include <Interface_Static.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
+#include <STEPControl_Controller.hxx>
 #include <STEPControl_Writer.hxx>
 #include <TColStd_Array2OfReal.hxx>
 #include <TColgp_Array2OfPnt.hxx>
@@ -158,8 +159,9 @@ void writeCad(const std::filesystem::path& path, const TopoDS_Shape& shape, bool
         IGESControl_Writer writer(inches ? "INCH" : "MM", 0);
         written = writer.AddShape(shape) && writer.Write(path.c_str());
     } else {
-        STEPControl_Writer writer;
+        STEPControl_Controller::Init(); // else the parameter does not exist; a writer takes it when it is made
         Interface_Static::SetCVal("write.step.unit", inches ? "INCH" : "MM");
+        STEPControl_Writer writer;
         written = writer.Transfer(shape, STEPControl_AsIs) == IFSelect_RetDone &&
                   writer.Write(path.c_str()) == IFSelect_RetDone;
     }

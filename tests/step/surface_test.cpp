@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 namespace voxtact::test {
 namespace {
@@ -81,8 +82,10 @@ TEST_F(StepSurface, IsWithinTheDeflectionOfItsTriangles) {
                 for (const std::string& note : mesh.notes) {
                     EXPECT_THAT(note, HasSubstr(" off the curved surface"));
                 }
+                // The edges of IGES have a tolerance: it has no solid.
+                const double allowed = std::string_view(name) == "m.igs" ? 1e-5 : 1e-6;
                 for (std::size_t i = 0; one.off && i < mesh.positions.size(); i += 3) {
-                    EXPECT_LT(one.off({mesh.positions[i], mesh.positions[i + 1], mesh.positions[i + 2]}), 1e-6);
+                    EXPECT_LT(one.off({mesh.positions[i], mesh.positions[i + 1], mesh.positions[i + 2]}), allowed);
                 }
             }
         }
@@ -191,12 +194,15 @@ TEST_F(StepTouch, ByTheProgram) {
         more.insert(more.begin(), question.begin(), question.end());
         return more;
     };
-    const std::string note = "m.step: triangles are up to 0.2";
-    EXPECT_THAT(rowsOf(output(with({"--deflection", "0.3"}), {.note = note})).front(),
-                testing::Contains(testing::Pair("touch", testing::AnyOf("0", "1", "2"))));
+    const Ran coarse = run(with({"--deflection", "0.3"}));
+    EXPECT_EQ(coarse.status, 0);
+    EXPECT_THAT(coarse.err, HasSubstr("m.step: triangles are up to 0.4"));
+    EXPECT_THAT(rowsOf(coarse.out).front(), testing::Contains(testing::Pair("touch", "1")));
     EXPECT_THAT(refused(2, with({"--deflection", "0"})),
                 HasSubstr("--deflection: '0' is not a number from 1e-06 mm on"));
-    EXPECT_THAT(refused(2, with({"--on", "device"})), HasSubstr("is answered by the host engine"));
+    const Ran onDevice = run(with({"--on", "device"})); // the notes of the file come before the refusal
+    EXPECT_EQ(onDevice.status, 2);
+    EXPECT_THAT(linesOf(onDevice.err).back(), HasSubstr("is answered by the host engine"));
 }
 
 } // namespace
