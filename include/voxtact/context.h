@@ -45,8 +45,8 @@ struct ContextDesc {
     /// queue of another family you record the transfer of ownership, which voxtact does not. Wrapped objects are as you
     /// made them.
     std::span<const std::uint32_t> queueFamilies;
-    /// Of all projections but certified, which ResultsDesc::clustersAtOnce is for: a draw or a dispatch tests at
-    /// most so many fragments, were each of its triangles as large as the viewport; a batch with more is more draws. At
+    /// Of all projections but certified, which ResultsDesc::clustersAtOnce is for: maximum number of fragments of a
+    /// draw or a dispatch, if each triangle were as large as the viewport; a larger batch takes more draws. At
     /// least a triangle in one view (by `compute`, 64). Never more than 2^22 triangles. Make it less for a GPU whose
     /// driver takes a long draw for a GPU that hangs. 0: 2^34.
     std::uint64_t fragmentsAtOnce = 0;

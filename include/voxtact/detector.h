@@ -29,7 +29,7 @@ struct DetectorDesc {
     /// where it is not asked for.
     bool counters = false;
     /// dominant-axis: every pixel that a triangle touches gives a fragment, by VK_EXT_conservative_rasterization. Its
-    /// texture coordinate is that of the pixel's centre in the triangle's plane, up to a pixel beside the triangle.
+    /// texture coordinate is that of the pixel's centre in the triangle's plane, up to a pixel outside the triangle.
     /// InvalidArgument for other projections and for the method compute.
     bool overestimate = false;
     /// Batches may have BatchItem::poses. The pass that makes pairs of them is then made, too, and the queue needs
@@ -52,7 +52,7 @@ struct BatchItem {
     /// that is not finite, or whose last row is not 0 0 0 1, is not examined: its count is 0, its exactness Refused,
     /// and by the projection `certified` it is *possible*.
     const PoseBuffer* poses = nullptr;
-    std::optional<std::uint32_t> poseCount = std::nullopt; ///< of `poses`, the first so many; nothing: all
+    std::optional<std::uint32_t> poseCount = std::nullopt; ///< number of poses, from the first; nothing: all
 
     /// How many pairs it is.
     [[nodiscard]] VOXTACT_API std::size_t pairs() const noexcept;
@@ -99,7 +99,7 @@ struct ResultsDesc {
     /// a GPU can do before its driver takes it for stuck; each takes 721 bytes of device memory. 0: none, for Results
     /// for other projections. Nothing: by maxPairs, 2048 to 16384, or more where the device's maxComputeWorkGroupCount
     /// allows for it and the queues take no more than a 128th of its memory. In any case fewer where its
-    /// maxComputeWorkGroupCount (16384 for each 65535 along x) or maxStorageBufferRange has no room for so many.
+    /// maxComputeWorkGroupCount (16384 for each 65535 along x) or maxStorageBufferRange has no room for them.
     std::optional<std::uint32_t> clustersAtOnce = std::nullopt;
     /// What the host makes of poses goes through mapped memory of the Results, 248 bytes per pair, instead of the
     /// command buffer. Recording a batch of thousands of pairs then takes a fraction of the time with drivers that are

@@ -252,9 +252,10 @@ VOXTACT_API Result<void> writePng(const std::filesystem::path& path, std::uint32
 VOXTACT_API Result<void> writePng(std::ostream& out, std::uint32_t width, std::uint32_t height,
                                   std::span<const std::uint8_t> rgba, const WriteProgress& progress = {});
 
-/// A file that appears when it is complete: its stream (classic locale) writes to a temporary file beside `path`;
-/// commit() renames it. Without commit() the temporary file is removed and `path` stays unchanged. Follows links, keeps
-/// an existing file's permissions, and writes directly to a device or pipe. Thread-safety: none; one thread at a time.
+/// A file that appears when it is complete: its stream (classic locale) writes to a temporary file in the folder of
+/// `path`; commit() renames it. Without commit() the temporary file is removed and `path` stays unchanged. Follows
+/// links, keeps an existing file's permissions, and writes directly to a device or pipe. Thread-safety: none; one
+/// thread at a time.
 class OutputFile {
   public:
     /// Opens the temporary file. Refuses folders, missing folders, and files that cannot be opened.

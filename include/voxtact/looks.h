@@ -39,7 +39,7 @@ struct LookPreset {
 /// Returns the colours without a preset: one warm white.
 [[nodiscard]] VOXTACT_API std::vector<ColourPoint> plainColours();
 
-/// Position of the eye, in degrees. Azimuth 0 is in front of the patient's face, 90 beside the left ear, 180 behind the
+/// Position of the eye, in degrees. Azimuth 0 is in front of the patient's face, 90 at the left ear, 180 behind the
 /// head; elevation 90 is above.
 struct ViewDirection {
     double azimuth = 0;   ///< degrees, around the body

@@ -228,7 +228,7 @@ struct WrappedMesh {
 /// How a mesh is made.
 struct MeshOptions {
     const char* name = nullptr; ///< appears on the Vulkan objects; may be null
-    /// Clusters of near triangles are made and kept beside it, 4 to 5 bytes per triangle, for the projection
+    /// Also creates and keeps clusters of near triangles, 4 to 5 bytes per triangle, for the projection
     /// `certified` to skip those that cannot touch. create() then sorts the triangles, O(n log n).
     bool clusters = false;
     /// Allows cmdUpdate() and cmdCopy(); keeps the triangles on the host, 12 bytes each, 16 with clusters.
@@ -322,9 +322,9 @@ struct WrappedPoses {
     VkDeviceSize offset = 0;          ///< bytes, of the first one; a multiple of 4
     VkDeviceSize stride = 64;         ///< bytes from one to the next; at least 64, a multiple of 4
     std::uint32_t count = 0;          ///< poses in the buffer, at least 1
-    /// No pose makes anything more than so many times as long; 1 is a rigid motion. Positive. It bounds the work of
+    /// Upper bound of the scaling by any pose; 1 is a rigid motion. Positive. It bounds the work of
     /// a dispatch of the projection `certified`, and no answer depends on it.
-    double mostScale = 1;
+    double maxScale = 1;
 };
 
 /// Poses on the device, for BatchItem::poses. What the host does with a pose is then done by a dispatch, with the same
@@ -335,7 +335,7 @@ class PoseBuffer {
   public:
     /// Uses a buffer of the caller's, which must outlive this. Its contents are not examined. Refuses a null buffer,
     /// no poses, an offset and a stride that WrappedPoses does not allow, more than the device's maxStorageBufferRange,
-    /// and a mostScale that is not a positive number.
+    /// and a maxScale that is not a positive number.
     [[nodiscard]] VOXTACT_API static Result<PoseBuffer> wrap(const Context& context, const WrappedPoses& wrapped,
                                                              const char* name = nullptr);
     VOXTACT_API PoseBuffer(PoseBuffer&&) noexcept;

@@ -35,7 +35,7 @@ typedef struct vxt_wrapped_poses {
     VkBuffer buffer;     ///< usage STORAGE_BUFFER
     VkDeviceSize offset; ///< bytes to the first pose; a multiple of 4
     VkDeviceSize stride; ///< bytes from pose to pose; at least 64; a multiple of 4; 0: 64
-    double most_scale;   ///< upper bound of the scaling by any pose; 0: 1. No answer depends on it
+    double max_scale;    ///< upper bound of the scaling by any pose; 0: 1. No answer depends on it
     uint32_t count;      ///< poses in the buffer; at least 1
 } vxt_wrapped_poses;
 

@@ -162,7 +162,7 @@ vxt_result vxt_pose_buffer_wrap(const vxt_context* context, const vxt_wrapped_po
                                       .offset = from.offset,
                                       .stride = orDefault(from.stride, VkDeviceSize{64}),
                                       .count = from.count,
-                                      .mostScale = orDefault(from.most_scale, 1.0)},
+                                      .maxScale = orDefault(from.max_scale, 1.0)},
                                      name));
     });
 }

@@ -42,7 +42,7 @@ Outcome become(const OtherProgram& other, const std::vector<std::string>& argume
     }
     pointers.push_back(nullptr);
     ::execv(pointers.front(), pointers.data());
-    const std::string reason = errno == ENOENT ? "is not beside this program" : std::strerror(errno);
+    const std::string reason = errno == ENOENT ? "is not in the folder of this program" : std::strerror(errno);
     return {kExitFailed, std::string(other.file) + ": " + reason + "; " + other.build + " builds it"};
 }
 

@@ -59,7 +59,7 @@ struct ByteReader::Stored {
         return got;
     }
 
-    /// At least `least` ready bytes where there are so many; `least` <= kChunk.
+    /// At least `least` ready bytes unless the end comes first; `least` <= kChunk.
     void fill(std::size_t least) {
         if (ready.size() >= least || behind == 0) {
             return;

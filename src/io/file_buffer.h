@@ -22,7 +22,7 @@ class FileBuffer : public std::streambuf {
     bool openSpecial(const std::filesystem::path& path);
     /// Writes what is left, and closes. False when anything since the opening went wrong.
     bool close();
-    /// The errno of what went wrong first; 0: nothing did.
+    /// Returns the errno of the first failure; 0: none.
     [[nodiscard]] int reason() const noexcept { return reason_; }
 
   protected:

@@ -7,10 +7,23 @@
 #include <vulkan/vulkan_core.h>
 
 #include <span>
+#include <utility>
 
 namespace voxtact {
 
+/// Ends before its memory, also when another is moved into it.
 struct Buffer {
+    Buffer() = default;
+    Buffer(Buffer&&) noexcept = default;
+    Buffer& operator=(Buffer&& other) noexcept {
+        buffer = std::move(other.buffer);
+        memory = std::move(other.memory);
+        size = other.size;
+        mapped = other.mapped;
+        return *this;
+    }
+    ~Buffer() = default;
+
     Memory memory;
     Owned<VkBuffer> buffer;
     VkDeviceSize size = 0;
@@ -22,7 +35,7 @@ struct Buffer {
 /// LimitExceeded where `size` is beyond the largest allocation; OutOfMemory where the device has no room.
 [[nodiscard]] Result<Buffer> makeBuffer(ContextImpl& context, VkDeviceSize size, VkBufferUsageFlags usage,
                                         MemoryUse use, const char* name);
-/// Makes a buffer on the device with `usage`, and beside it a mapped one for cmdFillBuffer() to fill it from.
+/// Makes a buffer on the device with `usage`, and a mapped one for cmdFillBuffer() to fill it from.
 [[nodiscard]] Result<void> makeStaged(ContextImpl& context, VkDeviceSize size, VkBufferUsageFlags usage,
                                       const char* name, Buffer& buffer, Buffer& staging);
 /// Makes the host's writes to a mapped buffer visible to the device. Nothing to do on coherent memory.
@@ -33,7 +46,18 @@ struct Buffer {
 /// A small storage buffer, shared by the bindings of one context that have nothing to show: a set has no holes.
 [[nodiscard]] Result<VkBuffer> emptyBuffer(ContextImpl& context);
 
+/// Ends before its memory, also when another is moved into it.
 struct Image {
+    Image() = default;
+    Image(Image&&) noexcept = default;
+    Image& operator=(Image&& other) noexcept {
+        view = std::move(other.view);
+        image = std::move(other.image);
+        memory = std::move(other.memory);
+        return *this;
+    }
+    ~Image() = default;
+
     Memory memory;
     Owned<VkImage> image;
     Owned<VkImageView> view;

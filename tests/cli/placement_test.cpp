@@ -120,9 +120,6 @@ TEST_F(PlacementTest, EveryQuestionSaysWhatComesNearNothing) {
     EXPECT_THAT(errorsOf("motion", ras, poses), HasSubstr("does not come near " + path("image.nrrd") +
                                                           " at any of 2 poses, the boxes are 251 mm apart; 100 %"));
     EXPECT_EQ(errorsOf("motion", mesh("in.obj", 1, 1), poses), "");
-    const Arguments picture{"--slice", "axial", "--force", "--output", path("picture.png")};
-    EXPECT_THAT(errorsOf("render", ras, picture), HasSubstr("at its pose, the boxes are 251 mm apart; 100 %"));
-    EXPECT_THAT(errorsOf("render", mesh("in.obj", 1, 1), picture), Not(HasSubstr("come near")));
 }
 
 TEST_F(PlacementTest, PosesOfAnotherSpaceAreSuspected) {

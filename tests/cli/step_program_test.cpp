@@ -56,9 +56,10 @@ class StepProgramTest : public CliTest {
 
 TEST_F(StepProgramTest, IsMissing) {
     for (const char* name : {"m.step", "m.igs"}) {
-        EXPECT_THAT(info(name), AllOf(HasSubstr(path(name)),
-                                      HasSubstr("need voxtact-step beside the program or library; build it with "
-                                                "-DVOXTACT_BUILD_STEP=ON (Debian: libocct-data-exchange-dev)")));
+        EXPECT_THAT(info(name),
+                    AllOf(HasSubstr(path(name)),
+                          HasSubstr("need voxtact-step in the folder of the program or library; build it with "
+                                    "-DVOXTACT_BUILD_STEP=ON (Debian: libocct-data-exchange-dev)")));
     }
     writeText(path("m.stp"), "ISO-10303-21;\n");
     writeText(path("m.iges"), "no IGES\n");

@@ -114,7 +114,7 @@ TEST_F(DicomHeader, SlicesThatLieSidewaysAreNoted) {
     };
     const auto volume = read(0.015);
     expectUsual(volume);
-    EXPECT_THAT(volume->notes, Contains("the slices lie up to 0.045 mm beside the first one's normal (0.34 degrees in "
+    EXPECT_THAT(volume->notes, Contains("the slices lie up to 0.045 mm off the first one's normal (0.34 degrees in "
                                         "all); they are stacked upright"));
     EXPECT_THAT(read(0.003)->notes, testing::SizeIs(1));
 }

@@ -186,7 +186,7 @@ TEST_F(DicomRefusal, TiltedGantry) {
 
 TEST_F(DicomRefusal, SliceBesideTheOthers) {
     expectRefused(readWith(2, ctSlice(2).text(0x00200032, "DS", "-7\\20\\10")),
-                  "'s2.dcm' (at 10 mm) lies 3 mm beside the line of the other slices' first pixels", folder_.path());
+                  "'s2.dcm' (at 10 mm) lies 3 mm off the line of the other slices' first pixels", folder_.path());
 }
 
 TEST_F(DicomRefusal, PixelsOfOtherKinds) {

@@ -380,7 +380,7 @@ TEST(Gltf, MalformedFiles) {
     refused(R"([{"op": "replace", "path": "/buffers/0/uri", "value": "other.bin"}])",
             "its buffer 'other.bin' is another file");
     refused(R"([{"op": "replace", "path": "/buffers/0/uri", "value": "https://a/b.bin"}])",
-            "is not in a file beside it");
+            "is not in a file in its folder");
     refused(R"([{"op": "remove", "path": "/buffers/0/uri"}])", "buffer 0 has no data");
     refused(R"([{"op": "replace", "path": "/accessors/0/componentType", "value": 5122}])", "accessor 0 is of a type");
     refused(R"([{"op": "replace", "path": "/meshes/0/primitives/0/attributes", "value": {}}])", "has no positions");

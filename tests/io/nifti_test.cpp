@@ -266,7 +266,7 @@ TEST(Nifti, SecondHeadersAreCheckedLikeTheFirst) {
     expectRefused(readBytes(bytes), "its NIfTI-2 header is damaged (its magic bytes)");
     expectRefused(readBytes(file.bytes().substr(0, 500)), "a NIfTI header takes 540 bytes, 500 are there");
     file.pair = true;
-    expectRefused(readFile(file), "in an .img file beside it; name it .hdr");
+    expectRefused(readFile(file), "in a separate .img file; name it .hdr");
     file = NiftiFile();
     bytes = file.bytes();
     const float offset = 0;

@@ -333,7 +333,7 @@ def test_names_of_options_are_listed(scene, knife):
 
 
 def test_refusals_name_what_is_wrong(scene, knife):
-    with pytest.raises(vx.InvalidArgumentError, match="labels of what touches need a scene with labels="):
+    with pytest.raises(vx.InvalidArgumentError, match="touched labels need a scene with labels="):
         scene.count(knife, np.eye(4), labels=True)
     with pytest.raises(vx.InvalidArgumentError, match="item 1, pose 0: the last row"):
         scene.count([(knife, np.eye(4)), (knife, np.zeros((4, 4)))])

@@ -85,14 +85,14 @@ struct AreaDesc {
     std::uint32_t threads = 0;
     double tolerance = kDefaultAreaTolerance;
     double resolution = kDefaultResolution;
-    std::uint64_t mostSteps = 1U << 18U;
+    std::uint64_t maxSteps = 1U << 18U;
 };
 
 /// Measures areas.
 class AreaMeter {
   public:
     static Result<AreaMeter> create(const AreaDesc& desc = {}) {
-        const Area question{.tolerance = desc.tolerance, .resolution = desc.resolution, .maxSteps = desc.mostSteps};
+        const Area question{.tolerance = desc.tolerance, .resolution = desc.resolution, .maxSteps = desc.maxSteps};
         Result<HostEngine> engine = engineFor(question, desc.threads);
         return engine.ok() ? Result<AreaMeter>(AreaMeter{std::move(*engine), question}) : engine.error();
     }
@@ -141,7 +141,7 @@ struct ClearanceDesc {
     double tolerance = kDefaultTolerance;
     double maximum = std::numeric_limits<double>::infinity();
     double resolution = kDefaultResolution;
-    std::uint64_t mostSteps = 1U << 18U;
+    std::uint64_t maxSteps = 1U << 18U;
     bool labelsAtAnyOpacity = false;
 };
 
@@ -153,7 +153,7 @@ class ClearanceMeter {
                                 .maximum = desc.maximum,
                                 .labelsAtAnyOpacity = desc.labelsAtAnyOpacity,
                                 .resolution = desc.resolution,
-                                .maxSteps = desc.mostSteps};
+                                .maxSteps = desc.maxSteps};
         Result<HostEngine> engine = engineFor(question, desc.threads);
         return engine.ok() ? Result<ClearanceMeter>(ClearanceMeter{std::move(*engine), question}) : engine.error();
     }
@@ -181,7 +181,7 @@ struct MotionDesc {
     Interpolation interpolation = Interpolation::Screw;
     double resolution = kDefaultMotionResolution;
     double touchResolution = kDefaultResolution;
-    std::uint64_t mostSteps = 1U << 20U;
+    std::uint64_t maxSteps = 1U << 20U;
 };
 
 /// Checks motions, and poses that are uncertain.
@@ -191,7 +191,7 @@ class MotionChecker {
         const Motion question{.interpolation = desc.interpolation,
                               .resolution = desc.resolution,
                               .touchResolution = desc.touchResolution,
-                              .maxSteps = desc.mostSteps};
+                              .maxSteps = desc.maxSteps};
         Result<HostEngine> engine = engineFor(question, desc.threads);
         return engine.ok() ? Result<MotionChecker>(MotionChecker{std::move(*engine), question}) : engine.error();
     }
@@ -219,7 +219,7 @@ struct PlannerDesc {
     std::uint32_t threads = 0;
     double tolerance = kDefaultPlanTolerance;
     double maximum = kDefaultPlanMaximum;
-    std::uint64_t mostSteps = 1U << 18U;
+    std::uint64_t maxSteps = 1U << 18U;
 };
 
 /// Plans.
@@ -232,7 +232,7 @@ class Planner {
     Result<PlanAnswer> plan(Plan question) {
         question.tolerance = desc_.tolerance;
         question.maximum = desc_.maximum;
-        question.maxSteps = desc_.mostSteps;
+        question.maxSteps = desc_.maxSteps;
         return engine_.ask(question);
     }
     [[nodiscard]] std::uint32_t threads() const { return engine_.threads(); }

@@ -31,7 +31,7 @@ struct Series {
     Sweep sweep = Sweep::Batch;
     std::string method{};
     Mode mode = Mode::Sync;
-    std::uint32_t batch = 1; ///< the times are of so many pairs
+    std::uint32_t batch = 1; ///< number of pairs per time
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     std::uint32_t triangles = 0;
@@ -97,7 +97,7 @@ struct CompareResult {
 /// Counts every pose by every method.
 [[nodiscard]] Result<std::vector<NamedCounts>> countAll(const Engines& engines, const Work& work);
 
-/// A comparison under way: of what, by whom, and where goes what is found.
+/// State of a comparison: inputs, engines, and destination of the results.
 struct CompareRun {
     const device::Session& session;
     const CompareSettings& settings;

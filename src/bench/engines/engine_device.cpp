@@ -57,7 +57,7 @@ struct MappedPoses {
     Buffer buffer;
     PoseBuffer poses;
 
-    /// Room for so many, at least one.
+    /// Makes room for this number of pairs, at least one.
     static Result<MappedPoses> create(const device::Session& session, std::uint32_t count) {
         ContextImpl& context = session.context.impl();
         Result<Buffer> buffer = makeBuffer(context, count * sizeof(std::array<float, 16>),

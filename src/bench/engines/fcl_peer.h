@@ -30,7 +30,7 @@ enum class FclScalar { Float, Double };
 
 /// How FCL looks for the first contact on the way.
 enum class FclOnTheWay {
-    Poses,   ///< at so many poses, the first and the last among them: CCDC_NAIVE
+    Poses,   ///< at a number of poses, with the first and the last: CCDC_NAIVE
     Advance, ///< conservative advancement; -1 where it is not offered
 };
 

@@ -21,7 +21,7 @@ struct Provenance {
 /// How far long work is.
 struct Steps {
     std::function<void(std::uint64_t total)> begin;     ///< before the first
-    std::function<void(std::uint64_t steps)> step;      ///< so many are done, beyond those before
+    std::function<void(std::uint64_t steps)> step;      ///< called with the number of steps done since the last call
     std::function<void(const std::string& what)> doing; ///< what the following steps are
 };
 

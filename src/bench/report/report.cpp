@@ -89,37 +89,37 @@ void writeDiagram(std::ostream& out, const Json& series) {
     constexpr double kHeight = 360;
     constexpr std::array kLineColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"};
     std::map<std::string, std::map<double, double>> lines;
-    double mostPairs = 1;
-    double leastRate = HUGE_VAL;
-    double mostRate = 0;
+    double maxPairs = 1;
+    double minRate = HUGE_VAL;
+    double maxRate = 0;
     for (const Json& point : series) {
         const auto text = [&](const char* name) { return valueText(point.value(name, Json())); };
         const Json rate = point.value("pairs_per_s", Json());
         if (rate.is_number() && rate > 0 && text("sweep") == "batch" && text("mode") != "sync") {
             const double pairs = point.at("batch").get<double>();
             lines[text("method")][pairs] = rate.get<double>();
-            mostPairs = std::max(mostPairs, pairs);
-            leastRate = std::min(leastRate, rate.get<double>());
-            mostRate = std::max(mostRate, rate.get<double>());
+            maxPairs = std::max(maxPairs, pairs);
+            minRate = std::min(minRate, rate.get<double>());
+            maxRate = std::max(maxRate, rate.get<double>());
         }
     }
-    if (lines.empty() || mostPairs == 1 || leastRate == mostRate) {
+    if (lines.empty() || maxPairs == 1 || minRate == maxRate) {
         return;
     }
     const auto place = [](double value, double least, double most, double length) {
         return number(std::round(length * std::log(value / least) / std::log(most / least)));
     };
-    out << "<h2>pairs per second by pairs in a batch, from " << number(leastRate) << " to " << number(mostRate)
+    out << "<h2>pairs per second by pairs in a batch, from " << number(minRate) << " to " << number(maxRate)
         << "</h2>\n<svg width=\"" << kWidth + 120 << "\" height=\"" << kHeight + 20
         << "\" viewBox=\"-10 -10 760 380\">\n<rect width=\"" << kWidth << "\" height=\"" << kHeight
         << "\" fill=\"none\" stroke=\"#999\"/>\n";
     std::size_t index = 0;
     for (const auto& [method, points] : lines) {
         const char* const colour = kLineColours.at(index++ % kLineColours.size());
-        const std::string end = place(mostRate / points.rbegin()->second, 1, mostRate / leastRate, kHeight);
+        const std::string end = place(maxRate / points.rbegin()->second, 1, maxRate / minRate, kHeight);
         out << "<polyline fill=\"none\" stroke-width=\"2\" stroke=\"" << colour << "\" points=\"";
         for (const auto& [pairs, rate] : points) {
-            out << place(pairs, 1, mostPairs, kWidth) << ',' << place(mostRate / rate, 1, mostRate / leastRate, kHeight)
+            out << place(pairs, 1, maxPairs, kWidth) << ',' << place(maxRate / rate, 1, maxRate / minRate, kHeight)
                 << ' ';
         }
         out << "\"/>\n<text x=\"" << kWidth + 5 << "\" y=\"" << end << "\" fill=\"" << colour << "\">" << method

@@ -32,7 +32,7 @@ void addInput(std::vector<NamedPath>& inputs, const char* option, const std::fil
                                                 const TransferFunctionOptions& transferFunction,
                                                 const ViewOptions& view, const LabelOptions& labels = {});
 
-/// Files that a header (.hdr, .nhdr, .mhd, .gltf) may mean beside itself, in its folder, and that need not be there; no
+/// Files that a header (.hdr, .nhdr, .mhd, .gltf) may refer to in its folder, and that need not be there; no
 /// format is read strictly.
 [[nodiscard]] Result<std::vector<std::filesystem::path>> filesNamedIn(const std::filesystem::path& header);
 

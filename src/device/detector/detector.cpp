@@ -206,7 +206,7 @@ Result<void> Detector::cmdDetect(VkCommandBuffer commandBuffer, const Batch& bat
             return Error{ErrorCode::LimitExceeded, 0,
                          "the Results, for " + std::to_string(slot.maxPairs) +
                              " pairs, have no queues for the projection certified: ResultsDesc::clustersAtOnce is 0, "
-                             "or the device's maxStorageBufferRange has no room for them in addition to so many pairs"};
+                             "or the device's maxStorageBufferRange has no room for them in addition to the pairs"};
         }
         VOXTACT_TRY(checkOutputs(context, batch, live(impl_).desc.outputs, slot));
         VOXTACT_TRY(checkPass(live(impl_).pass, batch));

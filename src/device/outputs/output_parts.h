@@ -44,7 +44,7 @@ struct OutputPartRow {
 /// In their order.
 [[nodiscard]] std::span<const OutputPartRow> outputParts() noexcept;
 
-/// VOXTACT_CONSTANT_OUTPUTS of a pipeline: the OUTPUT_* bits of what is asked for.
+/// VOXTACT_CONSTANT_OUTPUTS of a pipeline: the OUTPUT_* bits of the requested outputs.
 [[nodiscard]] std::uint32_t outputsConstant(const Outputs& outputs) noexcept;
 
 /// Empties an answer of outputs.

@@ -25,8 +25,8 @@ Result<void> checkWrapped(const ContextImpl& context, const WrappedPoses& wrappe
     if (wrapped.stride < kPoseBytes || wrapped.stride % 4 != 0 || wrapped.offset % 4 != 0) {
         return refuse("WrappedPoses::stride must be at least 64, and it and offset multiples of 4");
     }
-    if (!(wrapped.mostScale > 0) || !std::isfinite(wrapped.mostScale)) {
-        return refuse("WrappedPoses::mostScale is " + number(wrapped.mostScale) + ", it must be a positive number");
+    if (!(wrapped.maxScale > 0) || !std::isfinite(wrapped.maxScale)) {
+        return refuse("WrappedPoses::maxScale is " + number(wrapped.maxScale) + ", it must be a positive number");
     }
     const VkDeviceSize most = context.limits.maxStorageBufferRange;
     const VkDeviceSize others = wrapped.count - 1;
@@ -68,7 +68,7 @@ Result<PoseBuffer> PoseBuffer::wrap(const Context& context, const WrappedPoses& 
         impl->firstWord = static_cast<std::uint32_t>(wrapped.offset / sizeof(float));
         impl->words = static_cast<std::uint32_t>(wrapped.stride / sizeof(float));
         impl->count = wrapped.count;
-        impl->mostScale = wrapped.mostScale;
+        impl->maxScale = wrapped.maxScale;
         const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1};
         Result<DescriptorSet> set = makeDescriptorSet(c, *layout, {&size, 1}, name == nullptr ? "poses" : name);
         VOXTACT_TRY(set);

@@ -16,7 +16,7 @@ struct VolumeImpl {
     Grid grid{};
     Mat4 texture_from_world{};
     shader::PairGrid pairGrid{};
-    ScalarType type = ScalarType::UInt8; ///< of what was uploaded
+    ScalarType type = ScalarType::UInt8; ///< of the uploaded voxels
     VkFormat format = VK_FORMAT_UNDEFINED;
     bool filtered = true;  ///< by the device's sampler, linearly
     double valueSlope = 1; ///< value = valueSlope * texel + valueIntercept, texel being what the sampler returns
@@ -111,7 +111,7 @@ struct PoseBufferImpl {
     std::uint32_t firstWord = 0; ///< where the first pose begins
     std::uint32_t words = 0;     ///< from one to the next
     std::uint32_t count = 0;
-    double mostScale = 1; ///< WrappedPoses::mostScale
+    double maxScale = 1; ///< WrappedPoses::maxScale
     DescriptorSet descriptors{};
 };
 

@@ -15,7 +15,7 @@ inline constexpr std::uint32_t kMostRoomAnywhere = 16384;
 /// What Results get that were not asked for another.
 inline constexpr std::uint32_t kUsualQueueRoom = 2048;
 static_assert(kMostRoomAnywhere <= 65535, "Vulkan's least maxComputeWorkGroupCount");
-static_assert(VOXTACT_ROOM_LARGE(kMostQueueRoom) < 1U << VOXTACT_LEFT_SHIFT, "a number has so many bits");
+static_assert(VOXTACT_ROOM_LARGE(kMostQueueRoom) < 1U << VOXTACT_LEFT_SHIFT, "the number fits");
 
 /// Bytes for what PairSetup needs of items.
 inline constexpr VkDeviceSize kSetupBytes =
@@ -61,7 +61,7 @@ struct RoomLimits {
 [[nodiscard]] std::uint32_t queueRoomFor(const ResultsDesc& desc, const RoomLimits& limits,
                                          VkDeviceSize first) noexcept;
 
-/// Records the headers of so many rounds, VOXTACT_HEADERS at most: commands of no work groups, empty queues.
+/// Records the headers of a number of rounds, at most VOXTACT_HEADERS: commands of no work groups, empty queues.
 void recordQueueHeaders(const ContextImpl& context, VkCommandBuffer commandBuffer, const ResultsImpl& results,
                         std::uint32_t rounds = VOXTACT_HEADERS);
 /// Records counters of zero.

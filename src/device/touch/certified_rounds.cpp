@@ -48,7 +48,7 @@ MeshLooks meshLooks(const BatchItem& item) noexcept {
     const VolumeImpl& volume = item.volume->impl();
     double scale = 0;
     if (item.poses != nullptr) {
-        const double most = item.poses->impl().mostScale;
+        const double most = item.poses->impl().maxScale;
         scale = most * most * squaredScale(volume.grid, volume.texture_from_world, identity());
     }
     for (const Mat4& world_from_object : item.world_from_object) {

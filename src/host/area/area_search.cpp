@@ -15,7 +15,7 @@ namespace {
 
 /// One sum of the measurement, with its divisible parts.
 struct Slot {
-    explicit Slot(std::uint64_t mostSteps) : open(mostSteps) {}
+    explicit Slot(std::uint64_t maxSteps) : open(maxSteps) {}
 
     AreaSum sum;
     OpenParts open;
@@ -85,7 +85,7 @@ class AreaSearch {
     AreaSearch(const VolumeImpl& volume, const OpaquePart& part, MeshPlace& mesh, const AreaLabels* labels,
                std::size_t slots, const AreaGoal& goal, bool byTriangle)
         : part_(part), mesh_(mesh), goal_(goal), slack_(part.space, mesh.error()), measure_(volume, part, slack_),
-          walk_(volume, part, slack_, measure_, labels != nullptr), slots_(slots, Slot(goal.mostSteps)),
+          walk_(volume, part, slack_, measure_, labels != nullptr), slots_(slots, Slot(goal.maxSteps)),
           triangles_(byTriangle) {
         if (labels != nullptr) {
             labels_.emplace(*labels, part.space, slack_);
@@ -109,7 +109,7 @@ class AreaSearch {
     /// Each slot has its own iterations, so its result does not depend on other slots.
     AreaFound finish(Slot& slot) {
         std::uint64_t steps = 0;
-        while (!slot.sum.within(goal_.tolerance) && !slot.open.empty() && steps < goal_.mostSteps && goesOn()) {
+        while (!slot.sum.within(goal_.tolerance) && !slot.open.empty() && steps < goal_.maxSteps && goesOn()) {
             divide(slot.open.takeBest());
             ++steps;
         }

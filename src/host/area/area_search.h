@@ -14,7 +14,7 @@ namespace voxtact::cpu {
 /// Inputs of a measurement.
 struct AreaGoal {
     double tolerance = 0;        ///< mm^2: how near to each other the bounds of each sum are brought
-    std::uint64_t mostSteps = 0; ///< maximum number of divisions
+    std::uint64_t maxSteps = 0;  ///< maximum number of divisions
     CancelFlag cancel = nullptr; ///< what a cancelled measurement says means nothing
 };
 

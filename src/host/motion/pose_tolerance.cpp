@@ -43,9 +43,9 @@ double magnitudeOf(const PairAt& at) {
 } // namespace
 
 PoseToleranceSearch::PoseToleranceSearch(const PairAt& at, const MeshImpl* divided, const PoseTolerance& tolerance,
-                                         std::uint64_t mostSteps, ThreadMemory& memory)
+                                         std::uint64_t maxSteps, ThreadMemory& memory)
     : at_(at), divided_(divided), distance_(tolerance.distance), angle_(glm::radians(tolerance.angle)),
-      mostSteps_(mostSteps), memory_(memory),
+      maxSteps_(maxSteps), memory_(memory),
       origin_(dvec3(at.world_from_object[12], at.world_from_object[13], at.world_from_object[14]) -
               at.part.space.middle) {}
 
@@ -71,7 +71,7 @@ void PoseToleranceSearch::run(PairTouch& out) const {
                                        .maximum = std::numeric_limits<double>::denorm_min(),
                                        .enough = kEnough,
                                        .finest = kFinest,
-                                       .mostSteps = mostSteps_,
+                                       .maxSteps = maxSteps_,
                                        .untilMet = true},
                                       sweep);
     if (swept.lo > 0) {
@@ -93,7 +93,7 @@ bool PoseToleranceSearch::isReached(const Found& swept) const {
         return true;
     }
     const Found still = at_.search(
-        memory_, {.tolerance = kDefaultTolerance, .enough = kEnough, .finest = kFinest, .mostSteps = mostSteps_});
+        memory_, {.tolerance = kDefaultTolerance, .enough = kEnough, .finest = kFinest, .maxSteps = maxSteps_});
     if (still.hi == kInfinity) {
         return false;
     }

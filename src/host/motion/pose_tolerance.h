@@ -15,7 +15,7 @@ class PoseToleranceSearch {
     /// All must live as long as it. `divided`: dividedMesh() of the pair's mesh; null where that is, or for a tolerance
     /// without an angle.
     PoseToleranceSearch(const PairAt& at, const MeshImpl* divided, const PoseTolerance& tolerance,
-                        std::uint64_t mostSteps, ThreadMemory& memory);
+                        std::uint64_t maxSteps, ThreadMemory& memory);
 
     void run(PairTouch& out) const;
 
@@ -30,7 +30,7 @@ class PoseToleranceSearch {
     const MeshImpl* divided_;
     double distance_; ///< mm
     double angle_;    ///< radians
-    std::uint64_t mostSteps_;
+    std::uint64_t maxSteps_;
     ThreadMemory& memory_;
     glm::dvec3 origin_; ///< of the object, local
 };

@@ -78,7 +78,7 @@ SegmentSearch::Seen SegmentSearch::see(const Interval& interval, bool last) {
                           .maximum = std::numeric_limits<double>::denorm_min(),
                           .enough = (last ? kEnough : 1) * desc_.resolution,
                           .finest = std::max(kLastPiece * desc_.resolution, last ? 0 : kFinestBox * length(interval)),
-                          .mostSteps =
+                          .maxSteps =
                               std::min(desc_.maxSteps - std::min(steps_, desc_.maxSteps - 1), last ? kMost : kSoon)};
     const Found found = pairAt(interval.middle()).search(memory_, goal, sweep, interval.open.get());
     steps_ += found.steps + 1;

@@ -16,7 +16,7 @@ struct ContainmentFacts {
     bool isSomeOutside = false; ///< there certainly is something opaque outside
 };
 
-/// How much of what each sum is about is inside.
+/// Containment of the part that each sum measures.
 [[nodiscard]] std::vector<Containment> containmentsOf(const VolumeImpl& volume, const OverlapPart& part,
                                                       const PairSurface& surface, const OverlapLabels* labels,
                                                       std::span<const OverlapFound> found,

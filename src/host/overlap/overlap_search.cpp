@@ -12,7 +12,7 @@ namespace voxtact::cpu {
 
 namespace {
 
-/// So many boxes are divided at most for what is inside to be said, when the bounds are near enough to each other.
+/// Maximum number of boxes divided to decide the containment, once the bounds are within the tolerance.
 constexpr std::uint64_t kMoreSteps = 2048;
 
 /// A box that may be measured better.

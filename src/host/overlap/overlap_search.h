@@ -16,7 +16,7 @@ namespace voxtact::cpu {
 /// What is asked of a measurement.
 struct OverlapGoal {
     double tolerance = 0;        ///< voxels: how near to each other the bounds of each sum are brought
-    std::uint64_t maxSteps = 0;  ///< so many boxes are divided, of each sum
+    std::uint64_t maxSteps = 0;  ///< maximum number of boxes to divide for each sum
     CancelFlag cancel = nullptr; ///< what a cancelled measurement says means nothing
     /// Voxels: volumes that are larger prove something. Boxes are divided on, for a while, until there is such a volume
     /// inside the solid, and one outside of it, or certainly none.

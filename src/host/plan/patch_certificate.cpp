@@ -67,7 +67,7 @@ bool PatchCertificate::isApart(const DirectionPatch& patch, double longest, Open
                           .maximum = wanted + 2 * scene_.slack,
                           .enough = last ? -1 : wanted,
                           .finest = std::max(kDefaultTolerance, kFinestPart * cone.angle * end),
-                          .mostSteps = last ? kMost : kSoon,
+                          .maxSteps = last ? kMost : kSoon,
                           .coarsely = true};
     bool apart = true;
     for (std::size_t i = 0; i < scene_.obstacles.size(); ++i) {
@@ -120,7 +120,7 @@ double PatchCertificate::clearanceOf(const DirectionPatch& cell, double longest,
                               .maximum = clearance + off,
                               .enough = scene_.radius,
                               .finest = fine,
-                              .mostSteps = kMost,
+                              .maxSteps = kMost,
                               .measures = true,
                               .coarsely = true};
         const BatchItem item{&scene_.axis, of.given->volume, nullptr, {}};

@@ -69,7 +69,7 @@ void PathMeasure::measure(const Way& way, PlannedPath& out) {
                                     .maximum = maximum,
                                     .enough = std::max(scene_.radius - scene_.slack, 0.0),
                                     .finest = desc.tolerance / 4,
-                                    .mostSteps = desc.maxSteps});
+                                    .maxSteps = desc.maxSteps});
         take(found, i, out);
         exhausted = exhausted || found.exhausted;
         const double lo = std::min(found.lo, maximum) - scene_.radius - scene_.slack;
@@ -108,7 +108,7 @@ void PathMeasure::decide(const Way& way, PlannedPath& out) {
                                     .maximum = wanted + 4 * scene_.slack,
                                     .enough = wanted - scene_.slack,
                                     .finest = std::min(scene_.task.tolerance, kDefaultTolerance) / 4,
-                                    .mostSteps = scene_.task.maxSteps});
+                                    .maxSteps = scene_.task.maxSteps});
         take(found, i, out);
         lo = std::min(lo, found.lo - scene_.radius - scene_.slack);
         exhausted = exhausted || found.exhausted;

@@ -81,7 +81,7 @@ SearchGoal goalOf(const Distance& question) {
     return {.tolerance = question.tolerance,
             .maximum = question.maximum,
             .finest = question.tolerance / 4,
-            .mostSteps = question.maxSteps};
+            .maxSteps = question.maxSteps};
 }
 
 void measurePair(const PairAt& at, const Distance& question, ThreadMemory& memory, PairDistance& out) {

@@ -118,7 +118,7 @@ TrackedDistance DistanceTrackerImpl::search(const BatchItem& item, double thresh
                                            .relative = kRelative,
                                            .maximum = maximum,
                                            .finest = kDefaultTolerance / 4,
-                                           .mostSteps = desc.maxSteps});
+                                           .maxSteps = desc.maxSteps});
     out.bounds = {out.possible ? 0 : found.lo, found.hi};
     return out;
 }

@@ -28,7 +28,7 @@ struct DistanceError {
 struct Found {
     double lo = kInfinity;                ///< no opaque point is nearer
     double hi = kInfinity;                ///< an opaque point is at most this far
-    bool exhausted = false;               ///< mostSteps ended it
+    bool exhausted = false;               ///< maxSteps ended it
     std::uint32_t triangle = kNoTriangle; ///< the closest one, by its place in the mesh's arrays; with hi finite
     glm::dvec3 onMesh{};                  ///< local
     glm::dvec3 inVolume{};

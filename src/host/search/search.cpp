@@ -84,7 +84,7 @@ bool ClosestSearch::goesOn() {
     if (!dive_ && heap_.least() >= found_.lo && ++stepsInDoubt_ > kMostInDoubt) {
         return false;
     }
-    found_.exhausted = found_.steps == goal_.mostSteps;
+    found_.exhausted = found_.steps == goal_.maxSteps;
     return !found_.exhausted;
 }
 

@@ -28,7 +28,7 @@ struct SearchGoal {
     double maximum = kInfinity; ///< mm: search radius
     double enough = -1;         ///< mm: an opaque point as near as this ends it
     double finest = 0;          ///< mm: stop when upper - lower is at most this
-    std::uint64_t mostSteps = 0;
+    std::uint64_t maxSteps = 0;
     std::optional<glm::dvec3> known{}; ///< local: a point that certainly is searched for. Not with a sweep
     bool measures = false; ///< a sweep that only shifts: how near it comes is asked, not only whether it is apart
     bool coarsely = false; ///< boxes below the finest size are not divided, even if undecided

@@ -55,7 +55,7 @@ void decide(const PairAt& at, const Touch& question, ThreadMemory& memory, PairT
                                            .maximum = std::nextafter(reach, kInfinity),
                                            .enough = question.margin > 0 ? question.margin : reach,
                                            .finest = kDefaultTolerance / 4,
-                                           .mostSteps = question.maxSteps});
+                                           .maxSteps = question.maxSteps});
     if (found.hi <= question.margin) {
         out.touch = Verdict::Yes;
         if (question.witness) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "io/volume/dicom_data_set.h"
+#include "io/dicom/dicom_data_set.h"
 #include "voxtact/io.h"
 
 #include <optional>

@@ -3,13 +3,13 @@
 #include "core/base/text.h"
 #include "core/base/try.h"
 #include "core/geometry/vec3.h"
+#include "io/dicom/dicom_pixels.h"
+#include "io/dicom/dicom_slice.h"
+#include "io/dicom/dicom_stack.h"
 #include "io/errors.h"
 #include "io/labels/dicom_labels.h"
 #include "io/labels/segment_map.h"
 #include "io/mesh/mesh_text.h"
-#include "io/volume/dicom_pixels.h"
-#include "io/volume/dicom_slice.h"
-#include "io/volume/dicom_stack.h"
 
 #include <algorithm>
 #include <cmath>
@@ -172,7 +172,7 @@ class SegStack {
             const Vec3 shift = step(minus(slice.position, lowest_.position), normal_, -rise);
             if (length(shift) > std::max(0.01, 0.1 * std::min(lowest_.spacing[0], lowest_.spacing[1]))) {
                 return cannotRead(file_.path, slice.name + " lies " + millimetres(length(shift)) +
-                                                  " mm beside the normal of the first one; resample it");
+                                                  " mm off the normal of the first one; resample it");
             }
         }
         return {};

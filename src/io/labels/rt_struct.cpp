@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Structure sets of radiotherapy (PS3.3, C.8.8.5 and C.8.8.6): contours in the slices of an image.
 #include "core/base/try.h"
+#include "io/dicom/dicom_slice.h"
 #include "io/errors.h"
 #include "io/labels/dicom_labels.h"
 #include "io/labels/segment_map.h"
 #include "io/mesh/mesh_text.h"
-#include "io/volume/dicom_slice.h"
 
 #include <algorithm>
 #include <charconv>

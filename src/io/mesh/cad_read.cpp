@@ -28,7 +28,7 @@ namespace {
 
 constexpr const char* kConverter = "voxtact-step";
 
-/// Beside the library that this code is in, or beside the program: nowhere else.
+/// Finds the converter in the folder of the library that holds this code, else in that of the program.
 std::filesystem::path converterPath() {
     std::error_code ignored;
     std::vector<std::filesystem::path> files{std::filesystem::read_symlink("/proc/self/exe", ignored)};
@@ -38,10 +38,10 @@ std::filesystem::path converterPath() {
         files.insert(files.begin(), library.dli_fname);
     }
     for (const std::filesystem::path& file : files) {
-        std::filesystem::path beside = file.parent_path() / kConverter;
+        std::filesystem::path converter = file.parent_path() / kConverter;
         // A relative name would be one in the current folder.
-        if (file.is_absolute() && ::access(beside.c_str(), X_OK) == 0) {
-            return beside;
+        if (file.is_absolute() && ::access(converter.c_str(), X_OK) == 0) {
+            return converter;
         }
     }
     return {};
@@ -65,7 +65,7 @@ struct Converted {
     int status = 0; ///< as waitpid() has it
 };
 
-/// The errno of what failed; 0: nothing.
+/// Returns 0, or the errno of the failure.
 int runConverter(const std::filesystem::path& program, const std::filesystem::path& file, double deflection,
                  Converted& out) {
     std::array<int, 2> ends{};
@@ -165,9 +165,10 @@ Result<MeshFile> readCad(const MeshSource& source) {
     }
     const std::filesystem::path program = converterPath();
     if (program.empty()) {
-        return cannotRead(source.path, std::string("STEP and IGES need ") + kConverter +
-                                           " beside the program or library; build it with -DVOXTACT_BUILD_STEP=ON "
-                                           "(Debian: libocct-data-exchange-dev)");
+        return cannotRead(source.path,
+                          std::string("STEP and IGES need ") + kConverter +
+                              " in the folder of the program or library; build it with -DVOXTACT_BUILD_STEP=ON "
+                              "(Debian: libocct-data-exchange-dev)");
     }
     Converted converted;
     if (const int reason = runConverter(program, source.path, source.deflection, converted); reason != 0) {

@@ -7,7 +7,7 @@
 
 namespace voxtact::io {
 
-/// What an accessor is read for, which says of what types it may be.
+/// Purpose of an accessor; selects the types that it may have.
 enum class GltfUse {
     Positions,     ///< VEC3 of floats; with KHR_mesh_quantization also of whole numbers
     Displacements, ///< of morph targets: the same, whole numbers with a sign

@@ -81,7 +81,7 @@ std::filesystem::path pathOf(const std::string& uri) {
                                       : -1;
     };
     if (uri.find("://") != std::string::npos) {
-        throw GltfRefusal{"its buffer " + inQuotes(uri) + " is not in a file beside it; save it there"};
+        throw GltfRefusal{"its buffer " + inQuotes(uri) + " is not in a file in its folder; save it there"};
     }
     std::string text;
     for (std::size_t i = 0; i < uri.size(); ++i) {

@@ -60,7 +60,7 @@ class GltfDocument {
 [[nodiscard]] bool flag(const GltfJson& object, const char* key);
 /// A list of natural numbers; empty where there is none.
 [[nodiscard]] std::vector<std::uint64_t> naturals(const GltfJson& object, const char* key);
-/// So many finite numbers.
+/// Reads this number of finite numbers.
 [[nodiscard]] std::optional<std::vector<double>> numbers(const GltfJson& object, const char* key, std::size_t count);
 /// A list of objects; empty where there is none.
 [[nodiscard]] const GltfJson& objects(const GltfJson& object, const char* key);

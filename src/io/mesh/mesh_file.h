@@ -17,8 +17,8 @@ namespace voxtact::io {
 struct MeshSource {
     std::filesystem::path path; ///< its ending is the format; messages name it
     std::string_view content;
-    /// The bytes of a file that this one refers to, by its path beside this one (glTF). None: such files are refused.
-    std::function<Result<std::string>(const std::filesystem::path& beside)> other = {};
+    /// Reads a file that this one refers to, by its path relative to this one (glTF). Empty: such files are refused.
+    std::function<Result<std::string>(const std::filesystem::path& relative)> other = {};
     double deflection = kDefaultDeflection; ///< of STEP and IGES; units of the file's mm
 };
 

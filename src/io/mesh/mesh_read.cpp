@@ -268,8 +268,8 @@ Result<MeshData> readMesh(const std::filesystem::path& path, const MeshReadOptio
     return guard([&]() -> Result<MeshData> {
         const Result<std::string> content = readWholeFile(path);
         VOXTACT_TRY(content);
-        const auto other = [&](const std::filesystem::path& beside) {
-            return readWholeFile(path.parent_path() / beside);
+        const auto other = [&](const std::filesystem::path& relative) {
+            return readWholeFile(path.parent_path() / relative);
         };
         return makeMesh({path, *content, other}, options);
     });

@@ -93,7 +93,7 @@ Result<NiftiHeader> parseFirst(const fs::path& path, std::string_view head, bool
     const std::string_view magic = head.substr(kNifti1.magic, 4);
     if (magic == std::string_view("ni1\0", 4) || magic == std::string_view("n+1\0", 4)) {
         if (single && magic[1] == 'i') {
-            return cannotRead(path, "its header says that its voxels are in an .img file beside it; name it .hdr");
+            return cannotRead(path, "its header says that its voxels are in a separate .img file; name it .hdr");
         }
         header.kind = NiftiHeader::Kind::Nifti1;
     } else if (!single) {
@@ -115,7 +115,7 @@ Result<NiftiHeader> parseSecond(const fs::path& path, std::string_view head, boo
         return cannotRead(path, "its NIfTI-2 header is damaged (its magic bytes); get the file again");
     }
     if (single && magic[1] == 'i') {
-        return cannotRead(path, "its header says that its voxels are in an .img file beside it; name it .hdr");
+        return cannotRead(path, "its header says that its voxels are in a separate .img file; name it .hdr");
     }
     const Fields<std::int64_t, std::int32_t, double> fields(head, header.swapped);
     header.kind = NiftiHeader::Kind::Nifti2;

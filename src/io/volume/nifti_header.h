@@ -55,7 +55,7 @@ constexpr std::size_t kNifti2Bytes = 540;
 /// Whether the header that begins so takes kNifti2Bytes.
 [[nodiscard]] bool isNifti2(std::string_view head);
 
-/// `head`: the first bytes of the file, kNifti1Bytes or kNifti2Bytes of them where it has so many. `single`: header and
+/// `head`: the first bytes of the file, kNifti1Bytes or kNifti2Bytes of them, or all. `single`: header and
 /// voxels are one file.
 [[nodiscard]] Result<NiftiHeader> parseNiftiHeader(const std::filesystem::path& path, std::string_view head,
                                                    bool single);

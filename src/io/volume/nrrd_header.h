@@ -28,7 +28,7 @@ struct NrrdHeader {
     [[nodiscard]] std::optional<std::int64_t> integer(std::string_view key) const;
 };
 
-/// The image of a file behind its header. `times`: the file holds so many numbers for each voxel, as if the image were
+/// The image of a file behind its header. `times`: number of values per voxel in the file, as if the image were
 /// as many times as long along `axis` (of the axes in space); the grid that is returned is that of one.
 [[nodiscard]] Result<ContainedImage> readNrrdImage(const VolumeSource& source, ByteReader reader,
                                                    const NrrdHeader& header, std::size_t axis = 0,

@@ -61,7 +61,7 @@ struct ContainedImage {
 [[nodiscard]] Result<std::uint64_t> frameBytes(const std::filesystem::path& path, std::vector<std::int64_t> sizes,
                                                std::uint64_t bytesPerVoxel, std::uint64_t& frames);
 
-/// Which of so many images of a file is wanted, from 0.
+/// Index of the image in a file with this number of images, from 0.
 [[nodiscard]] Result<std::uint64_t> frameOf(const std::filesystem::path& path, std::uint64_t frames,
                                             const VolumeReadOptions& options);
 
@@ -69,7 +69,8 @@ struct ContainedImage {
 struct VoxelFiles {
     enum class Coding { Raw, Text, Gzip, ZlibOrGzip };
 
-    std::vector<std::string> names; ///< in order, beside the header, with equally many slices each; none: behind it
+    std::vector<std::string>
+        names; ///< in order, in the header's folder, with equal numbers of slices; none: after the header
     Coding coding = Coding::Raw;
     std::int64_t skippedLines = 0; ///< of each file
     std::int64_t skippedBytes = 0; ///< after those lines; -1: the voxels are the end of the file

@@ -2,11 +2,11 @@
 #include "core/base/guard.h"
 
 #include "core/base/try.h"
+#include "io/dicom/dicom_folder.h"
+#include "io/dicom/dicom_resample.h"
 #include "io/errors.h"
 #include "io/labels/dicom_labels.h"
 #include "io/labels/segment_map.h"
-#include "io/volume/dicom_folder.h"
-#include "io/volume/dicom_resample.h"
 #include "io/volume/volume_container.h"
 #include "voxtact/io.h"
 

@@ -254,7 +254,7 @@ class Scene:
 
     def _answered(self, request: Request, question: Question, progress: Tell) -> Tables:
         if question.outputs & lib.VXT_OUTPUT_LABELS and self._labels is None:
-            refuse("labels of what touches need a scene with labels=")
+            refuse("touched labels need a scene with labels=")
         tables = Tables("count", request.lengths(), PROJECTIONS[question.projection], question.outputs, question.max_contacts,
                         question.counters, (request, question, self.revision))
         side: Any

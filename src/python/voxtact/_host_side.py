@@ -29,7 +29,7 @@ def check_on_host(question: Question) -> None:
         raise UnsupportedError("the host engine has the filter exact alone, and no overestimate; for others make the scene "
                                "with device=")
     if question.counters:
-        raise UnsupportedError("counters are of what the passes on a device do; for them make the scene with device=")
+        raise UnsupportedError("counters are of the passes on a device; make the scene with device=")
 
 
 class HostSide:

@@ -19,7 +19,7 @@ ffi: Any = _ffi
 
 
 def _load() -> Any:
-    """Loads the library beside this file, or the one in VOXTACT_LIBRARY; it stays loaded until the process ends,
+    """Loads the library in the folder of this file, or the one in VOXTACT_LIBRARY; it stays loaded until the process ends,
     because objects may outlive modules."""
     place = os.environ.get("VOXTACT_LIBRARY") or os.path.join(os.path.dirname(__file__), "libvoxtact.so")
     try:

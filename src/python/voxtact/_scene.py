@@ -411,7 +411,7 @@ class Scene(Measuring):
             (width, height), pixels
         view
             "front", "back", "left", "right", "top", "bottom"; or (azimuth, elevation) in degrees, 0 in front of the
-            face and 90 beside the left ear; or (4,4), clip_from_world; or a `View`, whose size is then the picture's
+            face and 90 at the left ear; or (4,4), clip_from_world; or a `View`, whose size is then the picture's
         preset, colours
             colours of a name in `looks()`; or (N,4), ascending: value, red, green, blue. None: warm white
         background

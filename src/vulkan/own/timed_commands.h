@@ -42,7 +42,7 @@ class TimedCommands {
     [[nodiscard]] Result<void> poll();
     /// Waits for everything on the device, after an error.
     void waitForAll() const;
-    /// Between two timestamps of what was waited for, ms. Nothing where the queue has none, or its
+    /// Time between two timestamps of a completed submission, ms. Nothing where the queue has none, or its
     /// clock went backwards.
     [[nodiscard]] Result<std::optional<double>> between(std::uint32_t from, std::uint32_t to) const;
 

@@ -138,7 +138,7 @@ TEST(Area, OfALabelDoesNotDependOnTheOthers) {
         mesh.positions[i] = 9.3F + 0.1F * mesh.positions[i];
     }
     const Held held(mesh, image, byteRamp(), {0, 255});
-    const cpu::AreaDesc desc{.threads = 1, .tolerance = 1e-3, .mostSteps = 300};
+    const cpu::AreaDesc desc{.threads = 1, .tolerance = 1e-3, .maxSteps = 300};
     const std::vector<LabelArea> all = labelAreas(held, &labels, std::vector<std::int32_t>{0, 1, 2, 3}, desc);
     std::size_t budget = 0;
     for (const std::vector<std::int32_t>& asked :
@@ -165,7 +165,7 @@ TEST(Area, RefusesWhatItCannotUse) {
     EXPECT_THAT(refused({.tolerance = 0}), HasSubstr("the tolerance 0 mm^2 is not a number from 1e-09 mm^2 on"));
     EXPECT_THAT(refused({.tolerance = std::numeric_limits<double>::quiet_NaN()}), HasSubstr("mm^2"));
     EXPECT_THAT(refused({.tolerance = kInfinity}), HasSubstr("mm^2"));
-    EXPECT_THAT(refused({.mostSteps = 0}), HasSubstr("at most 0 steps"));
+    EXPECT_THAT(refused({.maxSteps = 0}), HasSubstr("at most 0 steps"));
     EXPECT_THAT(refused({.resolution = 2}), HasSubstr("resolution"));
     EXPECT_THAT(refused({.threads = 5000}), HasSubstr("5000 threads"));
 

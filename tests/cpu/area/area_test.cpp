@@ -209,7 +209,7 @@ TEST(Area, OfAPlateInAFaceOfTheImageThatIsPartlyOpaqueIsLeftOpen) {
 /// Plates some steps of a float within a face of the image, or beyond it, wherever the world is.
 TEST(Area, OfPlatesHardlyWithinTheImage) {
     std::mt19937_64 random(testSeed());
-    cpu::AreaMeter meter = take(cpu::AreaMeter::create({.threads = 1, .tolerance = 0.01, .mostSteps = 200}));
+    cpu::AreaMeter meter = take(cpu::AreaMeter::create({.threads = 1, .tolerance = 0.01, .maxSteps = 200}));
     const cpu::TransferFunction ramp = take(cpu::TransferFunction::create({byteRamp(), {0, 255}}));
     std::size_t open = 0;
     for (int round = 0; round < 4000; ++round) {
@@ -313,7 +313,7 @@ TEST(Area, IsTrueWithFewSteps) {
         const Held held(scene.mesh, scene.volume, scene.points, scene.domain, scene.tableSize);
         const double fine = 1e-5 * surfaceOf(scene.mesh) + 1e-9;
         const auto measured = [&](std::uint64_t steps) {
-            return areas(held, scene.poses, {.threads = 1, .tolerance = fine, .mostSteps = steps}, scene.threshold);
+            return areas(held, scene.poses, {.threads = 1, .tolerance = fine, .maxSteps = steps}, scene.threshold);
         };
         const std::vector<PairArea> best = measured(1U << 14U);
         for (const std::uint64_t steps : {1ULL, 3ULL, 100ULL}) {

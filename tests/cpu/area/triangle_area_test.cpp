@@ -47,7 +47,7 @@ TEST(TriangleArea, IsWhatTheTriangleHasAlone) {
         const Held held(scene.mesh, scene.volume, scene.points, scene.domain, scene.tableSize);
         const std::size_t count = scene.mesh.indices.size() / 3;
         // So little that parts are divided.
-        const cpu::AreaDesc desc{.threads = 1, .tolerance = 1e-5 * surfaceOf(scene.mesh) + 1e-9, .mostSteps = 4096};
+        const cpu::AreaDesc desc{.threads = 1, .tolerance = 1e-5 * surfaceOf(scene.mesh) + 1e-9, .maxSteps = 4096};
         const AreaAnswer found = triangleAreas(held, scene.poses, desc, scene.threshold);
         const std::vector<PairArea> pairs = areas(held, scene.poses, desc, scene.threshold);
         ASSERT_EQ(found.pairs.size(), pairs.size());

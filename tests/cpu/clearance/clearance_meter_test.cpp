@@ -208,7 +208,7 @@ TEST(Clearance, RefusesWhatItCannotUse) {
     EXPECT_EQ(refused({.maximum = 0}), "the max 0 mm is not a number above 0 mm");
     EXPECT_NE(refused({.maximum = std::nan("")}), "");
     EXPECT_NE(refused({.resolution = 2}), "");
-    EXPECT_EQ(refused({.mostSteps = 0}), "at most 0 steps are allowed, a search takes at least one step");
+    EXPECT_EQ(refused({.maxSteps = 0}), "at most 0 steps are allowed, a search takes at least one step");
     EXPECT_EQ(refused({.threads = 2}), "");
 
     const VolumeData volume = makeBytes(unitGrid(8), [](auto...) { return 255; });

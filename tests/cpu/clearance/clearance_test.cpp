@@ -278,7 +278,7 @@ TEST(Clearance, ABudgetLeavesBounds) {
     const double whole = held.measure(pose).bounds.upper;
     std::size_t cut = 0;
     for (std::uint64_t steps = 1; steps < 1000; steps *= 2) {
-        const PairDistance found = held.measure(pose, {.mostSteps = steps});
+        const PairDistance found = held.measure(pose, {.maxSteps = steps});
         EXPECT_LE(found.bounds.lower, whole);
         EXPECT_GE(found.bounds.upper, whole - kDefaultTolerance);
         EXPECT_EQ(found.end, found.bounds.upper - found.bounds.lower <= kDefaultTolerance ? StopReason::Closed

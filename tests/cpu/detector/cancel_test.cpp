@@ -123,7 +123,7 @@ TEST_F(Cancel, AViewWithOutputs) {
 
 TEST_F(Cancel, AnArea) {
     cpu::AreaMeter meter =
-        take(cpu::AreaMeter::create({.threads = 1, .tolerance = 1e-9, .mostSteps = std::uint64_t{1} << 40U}));
+        take(cpu::AreaMeter::create({.threads = 1, .tolerance = 1e-9, .maxSteps = std::uint64_t{1} << 40U}));
     expectCancelled([&](const cpu::Batch& asked) { return meter.measure(asked); });
     const std::vector<std::int32_t> labels{0, 255};
     expectCancelled([&](const cpu::Batch& asked) { return meter.measureLabels(asked, labels); });
@@ -204,7 +204,7 @@ class CancelSearch : public Cancel {
 
 TEST_F(CancelSearch, AClearance) {
     cpu::ClearanceMeter meter =
-        take(cpu::ClearanceMeter::create({.threads = 1, .tolerance = 1e-6, .mostSteps = std::uint64_t{1} << 40U}));
+        take(cpu::ClearanceMeter::create({.threads = 1, .tolerance = 1e-6, .maxSteps = std::uint64_t{1} << 40U}));
     expectCancelled([&](const cpu::Batch& asked) { return meter.measure(asked); });
     const std::vector<std::int32_t> labels{1};
     expectCancelled([&](const cpu::Batch& asked) { return meter.measureLabels(asked, labels); });
@@ -222,7 +222,7 @@ TEST_F(CancelSearch, AMotion) {
     poses_ = {multiply(there, back), multiply(there, multiply(turn, back))};
     item_.world_from_object = poses_;
     cpu::MotionChecker checker =
-        take(cpu::MotionChecker::create({.threads = 1, .resolution = 1e-6, .mostSteps = std::uint64_t{1} << 40U}));
+        take(cpu::MotionChecker::create({.threads = 1, .resolution = 1e-6, .maxSteps = std::uint64_t{1} << 40U}));
     expectCancelled([&](const cpu::Batch& asked) { return checker.check(asked); });
 }
 

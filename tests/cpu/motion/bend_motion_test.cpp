@@ -88,7 +88,7 @@ TEST(BendingMotion, NoSampleOfTheWayContradictsIt) {
         const BendingWay way(random);
         const Interpolation interpolation = kWays[round % 2];
         cpu::MotionChecker checker =
-            take(cpu::MotionChecker::create({.threads = 1, .interpolation = interpolation, .mostSteps = 1U << 13U}));
+            take(cpu::MotionChecker::create({.threads = 1, .interpolation = interpolation, .maxSteps = 1U << 13U}));
         const auto touchAt = [&](double parameter) {
             const cpu::Mesh mesh = way.meshAt(parameter);
             const Mat4 pose = way.poseAt(parameter, interpolation);
@@ -130,7 +130,7 @@ TEST(BendingMotion, WhatDoesNotBendIsAsCheckSays) {
     const std::uint64_t seed = testSeed();
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     std::mt19937_64 random(seed);
-    cpu::MotionChecker checker = take(cpu::MotionChecker::create({.threads = 2, .mostSteps = 1U << 13U}));
+    cpu::MotionChecker checker = take(cpu::MotionChecker::create({.threads = 2, .maxSteps = 1U << 13U}));
     std::size_t touching = 0;
     for (std::size_t round = 0; round < randomCases(300, 10); ++round) {
         BendingWay way(random);

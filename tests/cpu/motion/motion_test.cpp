@@ -165,8 +165,8 @@ TEST(Motion, TurnsAboutTheMiddleWithSlerp) {
 /// Along a floor, at a small distance all the way: few steps, since only what goes towards it counts.
 TEST(Motion, SlidesAlongAFloor) {
     const Held held(makeBox({-1, -1, 0}, {1, 1, 1}), floorImage(), kFloorPoints, kFloorDomain, kFloorEntries);
-    const auto slide = [&](double height, std::uint64_t mostSteps) {
-        return held.check({translation({-5, 0, height}), translation({5, 1, height})}, {.mostSteps = mostSteps})[0];
+    const auto slide = [&](double height, std::uint64_t maxSteps) {
+        return held.check({translation({-5, 0, height}), translation({5, 1, height})}, {.maxSteps = maxSteps})[0];
     };
     // Steps are of cells; halves as long as the distance would take ten times as many.
     for (const double height : {5.0, 0.5, 0.05}) {
@@ -178,7 +178,7 @@ TEST(Motion, SlidesAlongAFloor) {
     const SegmentMotion within = slide(-0.001, 1U << 20U);
     ASSERT_TRUE(within.touch);
     EXPECT_EQ(within.touch->at, 0);
-    const SegmentMotion few = held.check({translation({0, 0, 9}), translation({0, 0, -2})}, {.mostSteps = 3})[0];
+    const SegmentMotion few = held.check({translation({0, 0, 9}), translation({0, 0, -2})}, {.maxSteps = 3})[0];
     EXPECT_EQ(few.end, MotionEnd::Budget);
     EXPECT_LT(few.freeUntil, 9.0 / 11);
 }
@@ -377,7 +377,7 @@ TEST(Motion, RefusesWhatItCannotUse) {
     EXPECT_EQ(refused({.resolution = 0}), "the resolution 0 mm is not a number from 1e-06 mm on");
     EXPECT_NE(refused({.resolution = std::nan("")}), "");
     EXPECT_NE(refused({.touchResolution = 2}), "");
-    EXPECT_EQ(refused({.mostSteps = 0}), "at most 0 steps are allowed, a search takes at least one step");
+    EXPECT_EQ(refused({.maxSteps = 0}), "at most 0 steps are allowed, a search takes at least one step");
     EXPECT_NE(refused({.interpolation = static_cast<Interpolation>(7)}), "");
     EXPECT_EQ(refused({.threads = 2}), "");
 

@@ -30,7 +30,7 @@ TEST(PlanObstacles, BoundsHoldForAllOfThemHoweverLooseTheyAre) {
         cpu::Planner planner = take(cpu::Planner::create({.threads = 1,
                                                           .tolerance = std::pow(10.0, uniform(random, -1, 1.5)),
                                                           .maximum = uniform(random, 1, 20),
-                                                          .mostSteps = std::uint64_t{1} << (4 + random() % 12)}));
+                                                          .maxSteps = std::uint64_t{1} << (4 + random() % 12)}));
         for (const PlannedPath& path : take(planner.plan(scene.task)).paths) {
             const double truth = scene.clearance(toGlm(path.position));
             const auto [lo, hi] = path.clearance;

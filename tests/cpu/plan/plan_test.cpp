@@ -421,7 +421,7 @@ TEST(Plan, RefusesWhatItCannotUse) {
     };
     EXPECT_EQ(numbers({.threads = 1, .tolerance = 0}), "the tolerance 0 mm is not a number from 1e-06 mm on");
     EXPECT_EQ(numbers({.threads = 1, .maximum = 0}), "the max 0 mm is not a number above 0 mm");
-    EXPECT_EQ(numbers({.threads = 1, .mostSteps = 0}), "at most 0 steps are allowed, a search takes at least one step");
+    EXPECT_EQ(numbers({.threads = 1, .maxSteps = 0}), "at most 0 steps are allowed, a search takes at least one step");
     EXPECT_EQ(refused([](auto& task) { task.target[1] = std::nan(""); }),
               "the target is not within 1e+09 mm of the origin");
     EXPECT_NE(refused([](auto& task) { task.target[2] = 1e18; }).find("the target"), std::string::npos);

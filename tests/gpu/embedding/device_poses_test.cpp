@@ -413,7 +413,7 @@ TEST_F(DevicePosesTest, WhatCannotBeUsedIsRefusedByName) {
     EXPECT_THAT(refused({.buffer = buffer.buffer, .stride = 60, .count = 1}), HasSubstr("stride must be at least 64"));
     EXPECT_THAT(refused({.buffer = buffer.buffer, .offset = 2, .count = 1}), HasSubstr("multiples of 4"));
     EXPECT_THAT(refused({.buffer = buffer.buffer, .count = UINT32_MAX}), HasSubstr("maxStorageBufferRange"));
-    EXPECT_THAT(refused({.buffer = buffer.buffer, .count = 1, .mostScale = 0}), HasSubstr("mostScale is 0"));
+    EXPECT_THAT(refused({.buffer = buffer.buffer, .count = 1, .maxScale = 0}), HasSubstr("maxScale is 0"));
     const PoseBuffer poses = wrap(buffer, 1);
     EXPECT_EQ(poses.count(), 1U);
 

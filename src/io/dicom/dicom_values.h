@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "io/volume/dicom_slice.h"
+#include "io/dicom/dicom_slice.h"
 #include "io/volume/stored_image.h"
 #include "voxtact/io.h"
 

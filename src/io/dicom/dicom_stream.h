@@ -27,7 +27,7 @@ class DicomStream {
 
     /// The next `count` bytes, or fewer where the file ends before; valid until the next call of anything.
     [[nodiscard]] std::string_view peek(std::size_t count);
-    /// False where so many are not left.
+    /// Returns false if fewer are left.
     [[nodiscard]] bool read(void* to, std::size_t count);
     [[nodiscard]] bool skip(std::uint64_t count);
 
@@ -41,7 +41,7 @@ class DicomStream {
 
     /// What follows is a raw deflate stream, of which `most` bytes are inflated at most.
     [[nodiscard]] Result<void> inflateFromHere(std::uint64_t most);
-    /// Inflates so many bytes more.
+    /// Allows inflation of this many bytes more.
     void allow(std::uint64_t bytes) noexcept;
     /// False where the deflate stream did not come to its end, or more than a byte of padding follows it. Once there
     /// are no bytes left.
@@ -67,7 +67,7 @@ class DicomStream {
     std::size_t windowAt_ = 0;
     std::string compressed_;
     std::unique_ptr<z_stream_s, InflateEnd> inflate_;
-    std::uint64_t mostInflated_ = 0; ///< the position that inflation does not go beyond
+    std::uint64_t maxInflated_ = 0; ///< the position that inflation does not go beyond
     bool ended_ = false;
     bool isInflated_ = false; ///< the deflate stream came to its end
     bool failed_ = false;

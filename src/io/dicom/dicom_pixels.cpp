@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "io/volume/dicom_pixels.h"
+#include "io/dicom/dicom_pixels.h"
 
 #include "core/base/try.h"
 #include "io/byte_source.h"
+#include "io/dicom/dicom_codecs.h"
+#include "io/dicom/dicom_stream.h"
 #include "io/errors.h"
-#include "io/volume/dicom_codecs.h"
-#include "io/volume/dicom_stream.h"
 
 namespace voxtact::io {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "io/volume/dicom_folder.h"
+#include "io/dicom/dicom_folder.h"
 
 #include "core/base/try.h"
+#include "io/dicom/dicom_resample.h"
+#include "io/dicom/dicom_stack.h"
+#include "io/dicom/dicom_values.h"
+#include "io/dicom/dicom_walker.h"
 #include "io/errors.h"
-#include "io/volume/dicom_resample.h"
-#include "io/volume/dicom_stack.h"
-#include "io/volume/dicom_values.h"
-#include "io/volume/dicom_walker.h"
 
 #include <algorithm>
 #include <array>
@@ -82,7 +82,7 @@ Result<void> leaveOut(const fs::path& path, Survey& found) {
     std::error_code unknown;
     const std::uintmax_t size = fs::file_size(path, unknown);
     const std::string what = size == 0 ? "it is empty" : "it is no DICOM file (" + std::to_string(size) + " bytes)";
-    // A hidden file is no slice: macOS writes '._NAME' beside each file on other disks.
+    // A hidden file is no slice: macOS writes '._NAME' for each file on other disks.
     if (lowerEnding(path) == ".dcm" && !path.filename().string().starts_with('.')) {
         return cannotRead(path, what + ", and its name ends in .dcm; get it again or take it away");
     }
@@ -114,7 +114,7 @@ Result<Survey> survey(const fs::path& folder) {
     }
     if (found.images.empty()) {
         return cannotRead(folder, found.hasDirectory
-                                      ? "the folder holds a DICOMDIR and no images beside it; give the folder below it "
+                                      ? "the folder holds a DICOMDIR and no images; give the folder below it "
                                         "that holds the slices"
                                       : "the folder holds no DICOM series");
     }

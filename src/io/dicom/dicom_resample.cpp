@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "io/volume/dicom_resample.h"
+#include "io/dicom/dicom_resample.h"
 
 #include "core/base/infinity.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
 #include "core/geometry/vec3.h"
+#include "io/dicom/dicom_stack.h"
 #include "io/errors.h"
-#include "io/volume/dicom_stack.h"
 #include "voxtact/io.h"
 
 #include <algorithm>
@@ -56,7 +56,7 @@ Result<void> DicomResampler::setGrid(const std::filesystem::path& folder, const 
     largestGap_ = gaps.back();
     const double rise = places_.back().height;
     const auto count = static_cast<double>(places_.size());
-    // One pair of near slices among many is no reason for so many slices.
+    // One pair of near slices must not multiply the slices of all.
     const double gap = rise / smallestGap_ < kMaxSlices * count ? smallestGap_ : gaps[(gaps.size() - 1) / 2];
     const double steps = std::max(std::round(rise / gap), 1.0);
     const DicomSlice& first = slices.front();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "io/volume/dicom_slice.h"
+#include "io/dicom/dicom_slice.h"
 
 #include <filesystem>
 #include <vector>

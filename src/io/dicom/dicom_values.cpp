@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "io/volume/dicom_values.h"
+#include "io/dicom/dicom_values.h"
 
 #include "core/base/infinity.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
-#include "io/volume/dicom_pixels.h"
+#include "io/dicom/dicom_pixels.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "io/volume/dicom_data_set.h"
-#include "io/volume/dicom_stream.h"
+#include "io/dicom/dicom_data_set.h"
+#include "io/dicom/dicom_stream.h"
 
 #include <cstddef>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "io/byte_source.h"
-#include "io/volume/dicom_codecs.h"
+#include "io/dicom/dicom_codecs.h"
 
 #include <algorithm>
 

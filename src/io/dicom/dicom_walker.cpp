@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/volume/dicom_walker.h"
+#include "io/dicom/dicom_walker.h"
 
 #include "io/byte_source.h"
 
@@ -151,7 +151,7 @@ bool DicomWalker::header(Element& element) {
 
 bool DicomWalker::fits(const Element& element, std::uint64_t end) {
     if (stream_.position() > end) {
-        return fail(element, "begins beyond the end of what it is part of");
+        return fail(element, "begins beyond the end of its parent");
     }
     const std::uint64_t left = std::min(end - stream_.position(), stream_.mostLeft());
     return element.length <= left || fail(element, "says that it is " + std::to_string(element.length) +

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/volume/dicom_stream.h"
+#include "io/dicom/dicom_stream.h"
 
 #include "core/base/try.h"
 #include "io/errors.h"
@@ -76,7 +76,7 @@ bool DicomStream::fill() {
 
 bool DicomStream::fillInflated() {
     const std::size_t before = window_.size();
-    if (position_ + before >= mostInflated_) {
+    if (position_ + before >= maxInflated_) {
         return false;
     }
     window_.resize(before + kInflatedChunk);
@@ -102,7 +102,7 @@ bool DicomStream::fillInflated() {
 }
 
 void DicomStream::allow(std::uint64_t bytes) noexcept {
-    mostInflated_ += std::min(bytes, std::numeric_limits<std::uint64_t>::max() - mostInflated_);
+    maxInflated_ += std::min(bytes, std::numeric_limits<std::uint64_t>::max() - maxInflated_);
 }
 
 bool DicomStream::isWhole() const noexcept {
@@ -122,7 +122,7 @@ Result<void> DicomStream::inflateFromHere(std::uint64_t most) {
     inflate_->next_in = reinterpret_cast<Bytef*>(compressed_.data());
     inflate_->avail_in = static_cast<uInt>(compressed_.size());
     ended_ = false;
-    mostInflated_ = position_;
+    maxInflated_ = position_;
     allow(most);
     return {};
 }
@@ -133,7 +133,7 @@ std::uint64_t DicomStream::mostLeft() const noexcept {
         return here + fileLeft_;
     }
     const std::uint64_t packed = ended_ ? 0 : kMostInflation * (fileLeft_ + inflate_->avail_in) + kInflatedChunk;
-    return std::min(here + packed, mostInflated_ - std::min(mostInflated_, position_));
+    return std::min(here + packed, maxInflated_ - std::min(maxInflated_, position_));
 }
 
 std::string_view DicomStream::peek(std::size_t count) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "io/volume/dicom_stack.h"
+#include "io/dicom/dicom_stack.h"
 #include "core/geometry/vec3.h"
 
 #include "core/base/text.h"
 #include "core/base/try.h"
+#include "io/dicom/dicom_walker.h"
 #include "io/errors.h"
-#include "io/volume/dicom_walker.h"
 
 #include <algorithm>
 #include <cmath>
@@ -180,11 +180,11 @@ Result<void> checkUpright(const std::filesystem::path& folder, const std::vector
         const double share = (slices[i].height - first.height) / rise;
         const std::array<double, 2> shift = shiftOf(slices[i]);
         most = std::max(most, std::hypot(shift[0], shift[1]));
-        const double beside = std::hypot(shift[0] - share * whole[0], shift[1] - share * whole[1]);
-        if (beside > allowed) {
+        const double offset = std::hypot(shift[0] - share * whole[0], shift[1] - share * whole[1]);
+        if (offset > allowed) {
             return cannotRead(
-                folder, slices[i].name + " (at " + millimetres(slices[i].height) + " mm) lies " + millimetres(beside) +
-                            " mm beside the line of the other slices' first pixels; resample the series" + kHow);
+                folder, slices[i].name + " (at " + millimetres(slices[i].height) + " mm) lies " + millimetres(offset) +
+                            " mm off the line of the other slices' first pixels; resample the series" + kHow);
         }
     }
     const double shift = std::hypot(whole[0], whole[1]);
@@ -195,7 +195,7 @@ Result<void> checkUpright(const std::filesystem::path& folder, const std::vector
     }
     constexpr double kRounding = 0.01; // mm, of positions as they are written
     if (most > kRounding) {
-        notes.push_back("the slices lie up to " + millimetres(most) + " mm beside the first one's normal (" +
+        notes.push_back("the slices lie up to " + millimetres(most) + " mm off the first one's normal (" +
                         number(std::round(degrees * 100) / 100) + " degrees in all); they are stacked upright");
     }
     return {};

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "io/volume/dicom_slice.h"
+#include "io/dicom/dicom_slice.h"
 #include "core/geometry/vec3.h"
 
 #include "core/base/text.h"
 #include "core/base/try.h"
+#include "io/dicom/dicom_walker.h"
 #include "io/errors.h"
-#include "io/volume/dicom_walker.h"
 
 #include <charconv>
 #include <cmath>

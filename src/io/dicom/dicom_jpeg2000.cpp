@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/volume/dicom_codecs.h"
+#include "io/dicom/dicom_codecs.h"
 
 #include "core/base/try.h"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "io/volume/dicom_data_set.h"
+#include "io/dicom/dicom_data_set.h"
 
 #include "core/base/try.h"
 #include "io/byte_source.h"
+#include "io/dicom/dicom_stream.h"
+#include "io/dicom/dicom_walker.h"
 #include "io/errors.h"
-#include "io/volume/dicom_stream.h"
-#include "io/volume/dicom_walker.h"
 
 #include <algorithm>
 #include <array>
