@@ -5,13 +5,15 @@
 #include "voxtact/data.h"
 
 #include <optional>
+#include <variant>
 
 /// The scene on the device. Each object is either uploaded from host memory or wrapped around the caller's own Vulkan
 /// objects, which are then never freed, written or transitioned.
 ///
-/// Uploading, without a surprise: create() makes the device object and fills a staging buffer; cmdUpload() records the
-/// copy into the caller's command buffer; releaseStaging() frees the staging buffer once that submission is complete.
-/// upload() does the three at once, on the caller's queue, and waits.
+/// create() makes the device object and fills a staging buffer; wrap() uses objects of the caller's. cmdPrepare()
+/// records for any number of both what they need before their first use, and retire() frees the staging buffers when
+/// that submission is complete. cmdUpload() and releaseStaging() are the same for one object; upload() does all of it
+/// on the caller's queue, and waits.
 ///
 /// Every cmdUpload():
 ///   call it             outside a render pass, on a queue with graphics (or with compute and transfer)
@@ -382,5 +384,21 @@ class LabelMap {
     explicit LabelMap(std::unique_ptr<LabelMapImpl> impl) noexcept;
     std::unique_ptr<LabelMapImpl> impl_;
 };
+
+/// An object of the scene; not null.
+using Resource = std::variant<Volume*, TransferFunction*, Mesh*, LabelMap*>;
+
+/// Records what the resources need before their first use: the uploads of created ones, the bricks of wrapped volumes,
+/// the clusters of wrapped meshes. Skips resources that need nothing, or whose upload was recorded. Refuses a null
+/// pointer; on error the resources before it are recorded.
+///   call it             outside a render pass, on a queue with graphics; one with compute for bricks, and for clusters
+///                       of wrapped meshes
+///   expects             wrapped objects as their structs say; earlier commands that wrote them are waited for
+///   leaves              the resources readable by vertex input and by any shader stage, in every later command
+///   queries             an active occlusion query is not affected
+///   bound state         with bricks or clusters: lost as by Volume::cmdUpdateBricks(); otherwise none
+[[nodiscard]] VOXTACT_API Result<void> cmdPrepare(VkCommandBuffer commandBuffer, std::span<const Resource> resources);
+/// Frees the staging buffers. The submission of cmdPrepare() must be complete.
+VOXTACT_API void retire(std::span<const Resource> resources) noexcept;
 
 } // namespace voxtact
