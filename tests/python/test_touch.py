@@ -450,6 +450,20 @@ def test_what_is_enclosed_is_warned_of():
         other.count(vx.read_mesh((mesh.vertices, mesh.faces[:-1])), np.eye(4))  # open
 
 
+def test_a_mesh_is_examined_for_enclosed_regions_once(monkeypatch):
+    asked = []
+    monkeypatch.setattr(vx._scene, "enclosed", lambda *arguments: asked.append(arguments))
+    scene = vx.Scene(vx.read_volume(half_space(), axes="zyx", affine=np.eye(4), space="lps"), opacity=[(99, 0), (101, 1)])
+    mesh, other = cube(), cube(2)
+    away = placed((500, 0, 0))
+    for _ in range(3):
+        scene.touch(mesh, away)
+        scene.count(mesh, away)
+    assert len(asked) == 1
+    scene.touch(other, away)
+    assert len(asked) == 2
+
+
 def test_spaces_that_nobody_has_said_are_warned_of():
     def scene(**said):
         return vx.Scene(vx.read_volume(half_space(), axes="zyx", affine=np.eye(4), **said), opacity=[(99, 0), (101, 1)])

@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Sequence
 from typing import Any, Literal, NoReturn, Optional, Union
+from weakref import WeakSet
 
 import numpy as np
 import numpy.typing as npt
@@ -92,7 +93,8 @@ class Scene(Measuring):
     second.
     """
 
-    __slots__ = ("_core", "_volume", "_labels", "_device", "_domain", "_table_size", "_closed", "_warned", "__weakref__")
+    __slots__ = ("_core", "_volume", "_labels", "_device", "_domain", "_table_size", "_closed", "_warned", "_examined",
+                 "__weakref__")
 
     def __init__(self, volume: Any, opacity: Opacity = None, threshold: float = core.DEFAULT_THRESHOLD, *,
                  domain: Optional[tuple[float, float]] = None, table_size: Optional[int] = None,
@@ -105,6 +107,7 @@ class Scene(Measuring):
         self._table_size = fitting if table_size is None else whole_number(table_size, "table_size", 2, core.MAX_TABLE_SIZE)
         self._closed = False
         self._warned = False
+        self._examined: WeakSet[core.Mesh] = WeakSet()  # meshes whose enclosed regions were looked for
         self._core = core.Scene(self._volume._core, points(opacity), self._domain, self._table_size, number(threshold, "threshold"),
                                  None if self._labels is None else self._labels._core,
                                  None if self._device is None else self._device._core,
@@ -201,7 +204,7 @@ class Scene(Measuring):
         """Decides whether each pose touches: a `Touch` with a row for each pose, in order.
 
         The mesh is its surface, unless `solid`: an opaque region that a closed mesh encloses without touching it is no
-        contact. A warning says so where the first pose encloses one and no pose touches.
+        contact. The first question about a mesh warns if no pose touches and the first pose encloses one.
 
         mesh, poses
             a mesh at poses, (N,4,4) or (4,4); or a list of (mesh, poses) alone
@@ -330,9 +333,11 @@ class Scene(Measuring):
         return Count(tables, self)
 
     def _warn_of_enclosed(self, pairs: int, mesh: Any, poses: Any) -> None:
-        """Warns once per scene if the first pose of a mesh encloses an opaque region without touching it."""
-        if not pairs or not isinstance(mesh, Mesh):
+        """Warns once per scene if the first pose of a mesh encloses an opaque region without touching it. Examines each mesh
+        once, because that takes milliseconds."""
+        if not pairs or not isinstance(mesh, Mesh) or mesh._core in self._examined:
             return
+        self._examined.add(mesh._core)
         place = enclosed(self._volume, self.opacity, self.threshold, mesh, poses.reshape(-1, 4, 4)[0])
         if place is not None:
             self._warned = True
