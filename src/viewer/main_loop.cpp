@@ -79,6 +79,7 @@ Result<void> MainLoop::run(std::function<Result<Given>(Progress&)> first) {
     state_->recent = recent_.paths();
     state_->mayWrite = desc_->mayWrite;
     state_->notesOf = desc_->notes;
+    state_->offersOf = desc_->offers;
     if (first) {
         load(std::move(first), std::nullopt);
     }

@@ -28,6 +28,7 @@ Reporter::Seen Reporter::look(const State& state) {
     seen.comparison = state.comparison.serial();
     seen.compared = state.comparison.answered();
     seen.notes = state.notes;
+    seen.offers = state.offers.size();
     seen.status = state.status;
     return seen;
 }
@@ -64,6 +65,9 @@ Result<void> Reporter::write(const State& state) {
     report.saving = state.saving ? std::optional(state.saving->share) : std::nullopt;
     report.comparison = state.comparing ? &state.comparison : nullptr;
     report.notes = state.notes;
+    for (const Offer& offer : state.offers) {
+        report.notes.push_back(offer.text);
+    }
     report.status = state.status;
     report.frame = state.frame;
     report.frameTimes = &state.frameTimes;

@@ -35,6 +35,7 @@ class Reporter {
         std::uint64_t comparison = 0; ///< its serial
         std::size_t compared = 0;     ///< methods that have answered
         std::vector<std::string> notes;
+        std::size_t offers = 0;
         std::string status;
 
         [[nodiscard]] bool operator==(const Seen&) const = default;

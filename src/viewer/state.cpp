@@ -61,6 +61,9 @@ void State::update() {
     if (other) {
         ++revision;
     }
+    if (document.edit.instruments != seen_.edit.instruments) {
+        offers.clear();
+    }
     if (other || moved) {
         changed_ = Clock::now();
     }
@@ -72,6 +75,7 @@ void State::update() {
     seen_ = {document.edit, method, camera, picture.extent, answered};
     // Notes take space: a dragged item must not move under the pointer.
     if (!blank && noted_ != revision && (noted_ == 0 || !itemHeld)) {
+        offers = noted_ == 0 && offersOf ? offersOf(*this) : std::move(offers);
         noted_ = revision;
         notes = notesOf ? notesOf(*this) : std::vector<std::string>();
     }
@@ -229,6 +233,7 @@ void State::passOn(State& next, std::optional<FileKind> opened) {
     next.read.insert(next.read.end(), read.begin(), read.end());
     next.mayWrite = mayWrite;
     next.notesOf = notesOf;
+    next.offersOf = offersOf;
 }
 
 Result<void> State::checkOutput(const std::filesystem::path& path) const {

@@ -97,6 +97,14 @@ struct State;
 /// Notes on the contents, a sentence each.
 using NotesOf = std::function<std::vector<std::string>(const State&)>;
 
+/// A note with a button that shows another document instead: the same files, read in another way.
+struct Offer {
+    std::string text;
+    std::string button;
+    Wanted wanted;
+};
+using OffersOf = std::function<std::vector<Offer>(const State&)>;
+
 /// A held handle, with the state at the time of the press.
 struct GizmoDrag {
     Handle handle;
@@ -205,6 +213,8 @@ struct State {
     std::string error;
     NotesOf notesOf;                  ///< empty: nothing strikes
     std::vector<std::string> notes;   ///< of the document as it stands; while `itemHeld` as it was before
+    OffersOf offersOf;                ///< empty: none
+    std::vector<Offer> offers;        ///< made once for what was opened; none once an instrument moved
     std::optional<Question> question; ///< a dialog, until it is answered
     std::optional<std::string> field; ///< what stands in the field for a path that has the keyboard; null: none has
     std::vector<std::string> recent;  ///< files that were opened, the last first

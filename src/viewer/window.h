@@ -39,6 +39,7 @@ struct WindowDesc {
     std::function<Lighting(const Grid&)> light; ///< of the fine picture of a volume
     MayWrite mayWrite;                          ///< of all that is saved
     NotesOf notes;                              ///< notes on the contents; may be empty
+    OffersOf offers;                            ///< buttons below the notes; may be empty
     /// Told of the notes of all that is opened, besides what the window says.
     std::function<void(const std::string& note)> tell;
     std::filesystem::path reportState;   ///< a file to write after each answer; empty: none

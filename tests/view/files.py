@@ -148,6 +148,18 @@ def notes(program, folder):
         lines = err.splitlines()  # each once, with those of the reader and the device
         assert window.process.returncode == 0 and out == "" and len(lines) == len(set(lines)) == 5, err
         assert sum("triangles have no area" in line for line in lines) == 1, err
+    image, ras = pathlib.Path(folder, "image.nrrd"), pathlib.Path(folder, "ras.obj")
+    image.write_bytes(b"NRRD0004\ntype: uint8\ndimension: 3\nsizes: 16 16 16\nspace: left-posterior-superior\n"
+                      b"space directions: (10,0,0) (0,10,0) (0,0,10)\nspace origin: (45,45,5)\nencoding: raw\n\n"
+                      + bytes(2048) + b"\xff" * 2048)
+    ras.write_text("v -100 -100 50\nv -120 -100 50\nv -100 -120 50\nv -100 -100 70\nf 1 2 3\nf 1 2 4\n")
+    with Server() as server, Window(program, server, folder, ["--volume", image, "--mesh", ras, "--device", "cpu",
+                                                             "--opacity", "100:0,200:1"]) as window:
+        window.until("the other reading", said("100 % of its box would be inside with --mesh-space ras"))
+        window.press("Next")
+        window.until("no offer for a mesh that moved", said())
+        window.press("ctrl+q")
+        window.end()
 
 
 def session(program, folder):

@@ -24,6 +24,31 @@ const ImGuiWindow* listOfMeshes() {
 
 } // namespace
 
+TEST(ViewOffer, ItsButtonOpensTheOtherReading) {
+    State state = smallState();
+    state.offersOf = [](const State& of) {
+        Document document = of.saved();
+        document.sources.meshes[0].space = "ras";
+        return std::vector<Offer>{
+            {"far away", "--mesh-space ras", {FileKind::Session, std::move(document), "tool.stl"}}};
+    };
+    ShownPanels panels(state);
+    panels.frame();
+    EXPECT_NE(panels.shownText().find("far away"), std::string::npos);
+    const ImGuiWindow* column = nullptr;
+    for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
+        column = window->WasActive && std::string_view(window->Name).find("right") != std::string_view::npos ? window
+                                                                                                             : column;
+    }
+    ASSERT_NE(column, nullptr);
+    for (float y = column->Pos.y; y < column->Pos.y + column->Size.y && !state.wanted; y += 8) {
+        panels.click(static_cast<double>(column->Pos.x) + 30, static_cast<double>(y));
+    }
+    ASSERT_TRUE(state.wanted);
+    EXPECT_EQ(state.wanted->document.sources.meshes[0].space, "ras");
+    EXPECT_EQ(state.wanted->path, "tool.stl");
+}
+
 TEST(ViewMeshList, IsScrolledToTheMeshThatBecomesTheChosenOne) {
     State state = smallState();
     constexpr std::size_t kMeshes = 9;

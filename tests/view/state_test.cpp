@@ -208,6 +208,27 @@ TEST(ViewState, NotesAreOfTheDocumentAsItStands) {
     EXPECT_THAT(notes(), ElementsAre("high", "mesh 0", "mesh 1"));
 }
 
+TEST(ViewState, OffersAreMadeOnceAndGoWhenAnInstrumentMoves) {
+    State state = makeState();
+    int made = 0;
+    state.offersOf = [&made](const State& of) {
+        ++made;
+        return std::vector<Offer>{{"far", "--mesh-space ras", {FileKind::Session, of.saved(), "tool.stl"}}};
+    };
+    state.update();
+    state.command([](Edit& edit) { edit.threshold = 0.75; });
+    state.update();
+    EXPECT_EQ(state.offers.size(), 1U);
+    state.command([](Edit& edit) { edit.pose() = moved(edit.pose(), {1, 0, 0}, Axes::World); });
+    state.update();
+    EXPECT_TRUE(state.offers.empty());
+    EXPECT_EQ(made, 1);
+    State next = makeState();
+    state.passOn(next, FileKind::Session);
+    next.update();
+    EXPECT_EQ(next.offers.size(), 1U);
+}
+
 TEST(ViewState, NotesAreMadeAnewForWhatIsShownInstead) {
     State state = makeState();
     state.notesOf = [](const State& of) {

@@ -146,7 +146,7 @@ std::vector<OtherReading> otherReadings(const ReadMesh& mesh, const Grid& image)
         const std::optional<std::string> space = change.space ? otherSpace(mesh) : std::optional<std::string>("");
         if (space) {
             count = change.count();
-            found.push_back({optionsOf(mesh, change, *space), overlap});
+            found.push_back({optionsOf(mesh, change, *space), overlap, *space, mesh.options.scale * change.scale});
         }
     }
     std::ranges::stable_sort(found, std::greater<>(), &OtherReading::overlap);

@@ -34,6 +34,8 @@ struct ReadMesh {
 struct OtherReading {
     std::string options; ///< "--mesh-space ras"
     double overlap = 0;
+    std::string space{}; ///< lps or ras; empty: as it was read
+    double scale = 1;    ///< --mesh-scale
 };
 
 /// Readings in another space or unit that would overlap the image far more, the best first; none for a space that

@@ -106,14 +106,24 @@ void drawClearance(const State& state) {
     }
 }
 
+void drawNote(const std::string& note) {
+    ImGui::PushStyleColor(ImGuiCol_Text, verdictColour(2));
+    ImGui::TextWrapped("%s", note.c_str());
+    ImGui::PopStyleColor();
+}
+
 } // namespace
 
 void drawAnswer(State& state) {
     heading("Does it touch?");
     for (const std::string& note : state.notes) {
-        ImGui::PushStyleColor(ImGuiCol_Text, verdictColour(2));
-        ImGui::TextWrapped("%s", note.c_str());
-        ImGui::PopStyleColor();
+        drawNote(note);
+    }
+    for (const Offer& offer : state.offers) {
+        drawNote(offer.text);
+        if (ImGui::Button(offer.button.c_str())) {
+            state.wanted = offer.wanted;
+        }
     }
     if (state.chosenAnswer() == nullptr) {
         ImGui::TextColored(quietColour(), "asking ...");

@@ -35,6 +35,7 @@ view::WindowDesc windowDesc(const ViewerOptions& options) {
     desc.light = [](const Grid& grid) { return lightingNamed("soft", grid).value_or(Lighting{}); };
     desc.mayWrite = checkWindowOutput;
     desc.notes = windowNotes;
+    desc.offers = windowOffers;
     desc.tell = printNoteOnce;
     desc.reportState = options.reportState;
     desc.frames = options.frames;

@@ -2,6 +2,7 @@
 #include "viewer/program/view_notes.h"
 
 #include "cli/options/opacity_notes.h"
+#include "cli/options/placement.h"
 #include "cli/output/size_note.h"
 #include "voxtact/looks.h"
 
@@ -41,6 +42,30 @@ std::vector<std::string> windowNotes(const view::State& state) {
         }
     }
     return notes;
+}
+
+std::vector<view::Offer> windowOffers(const view::State& state) {
+    std::vector<view::Offer> offers;
+    for (const view::Instrument& instrument : state.document.edit.instruments) {
+        view::Document document = state.saved();
+        view::MeshSource& source = document.sources.meshes[instrument.mesh];
+        const MeshOptions options{.sources = {}, .space = source.space, .scale = source.scale};
+        const ReadMesh read{source.path, options, state.bounds[instrument.mesh], {&instrument.world_from_object, 1}};
+        if (placementOf(read, state.volume.grid).distance == 0) {
+            continue;
+        }
+        const std::vector<OtherReading> others = otherReadings(read, state.volume.grid);
+        if (others.empty()) {
+            continue;
+        }
+        const OtherReading& best = others.front();
+        std::string text = "the mesh " + source.path + " does not come near the volume; " + toText(best);
+        source.space = best.space.empty() ? source.space : best.space;
+        source.scale = best.scale;
+        std::string path = source.path;
+        offers.push_back({std::move(text), best.options, {view::FileKind::Session, std::move(document), path}});
+    }
+    return offers;
 }
 
 } // namespace voxtact::app

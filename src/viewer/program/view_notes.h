@@ -12,4 +12,7 @@ namespace voxtact::app {
 /// Hounsfield units, a curve without opaque values.
 [[nodiscard]] std::vector<std::string> windowNotes(const view::State& state);
 
+/// Returns the readings of meshes, in another space or unit, that would bring them to the volume. Reads their files.
+[[nodiscard]] std::vector<view::Offer> windowOffers(const view::State& state);
+
 } // namespace voxtact::app
