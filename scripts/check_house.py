@@ -33,7 +33,7 @@ WITHOUT_VULKAN = ("src/core/", "src/exact/", "src/io/", "src/host/", "src/sample
 PARTS = {*ARROWS, "oracle"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 VULKAN = re.compile(r"^(vulkan/|volk)")
-C_HEADERS = {"stddef.h", "stdint.h", "string.h"}
+C_HEADERS = {"stddef.h", "stdint.h"}
 TYPE = re.compile(r"^(?:template <.*> *)?(?:class|struct|enum class) +([A-Z][A-Za-z0-9]+)(?: final)?(?: *:[^:].*)? *\{")
 
 

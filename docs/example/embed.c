@@ -8,6 +8,7 @@
 #include <dlfcn.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { EXIT_NO_DEVICE = 77, SIDE = 8, VOXELS = SIDE * SIDE * SIDE };
 

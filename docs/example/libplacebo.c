@@ -13,6 +13,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { EXIT_NO_DEVICE = 77, SIDE = 16, PICTURE = 32, POSES = 2 };
 

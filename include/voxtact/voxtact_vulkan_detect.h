@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
+/* A section of voxtact_vulkan.h, which includes this file after the scene. */
+#include "voxtact/voxtact_vulkan.h"
+
 #ifndef VOXTACT_VOXTACT_VULKAN_DETECT_H
 #define VOXTACT_VOXTACT_VULKAN_DETECT_H
-
-#include "voxtact/voxtact_answer.h"
-#include "voxtact/voxtact_vulkan_scene.h"
 
 /// @file
 /// Detectors, poses and results on the caller's device. See voxtact_vulkan.h.

@@ -4,7 +4,7 @@
 #include "c/answer_rows.h"
 #include "c/convert.h"
 #include "core/base/infinity.h"
-#include "voxtact/voxtact_answer.h"
+#include "voxtact/voxtact_vulkan.h"
 
 #include <limits>
 #include <string_view>

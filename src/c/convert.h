@@ -4,6 +4,8 @@
 #include "c/structs.h"
 #include "voxtact/results.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -40,9 +42,27 @@ void writeVec3(double* out, const Vec3& vector, const char* what);
 /// A view that no projection with a camera accepts where there is none.
 [[nodiscard]] View toView(const vxt_view* view) noexcept;
 /// 0, as in a struct that is all zero, stands for the default, and -0 for 0.
-[[nodiscard]] inline double thresholdOf(double given) noexcept {
-    const double zero = std::signbit(given) ? 0 : kDefaultThreshold;
+[[nodiscard]] inline double numberOr(double given, double standard) noexcept {
+    const double zero = std::signbit(given) ? 0 : standard;
     return given == 0 ? zero : given;
+}
+[[nodiscard]] inline double thresholdOf(double given) noexcept {
+    return numberOr(given, kDefaultThreshold);
+}
+/// Numbers that are all 0 stand for the default; one -0 makes them zeros.
+template <std::size_t N>
+[[nodiscard]] std::array<double, N> numbersOr(const double (&given)[N],
+                                              const std::array<double, N>& standard) noexcept {
+    const auto isUnset = [](double number) { return number == 0 && !std::signbit(number); };
+    std::array<double, N> out = standard;
+    if (!std::ranges::all_of(given, isUnset)) {
+        std::ranges::transform(given, out.begin(), [](double number) { return numberOr(number, 0); });
+    }
+    return out;
+}
+/// Inverts numberOr().
+[[nodiscard]] inline double explicitNumber(double number) noexcept {
+    return number == 0 ? -0.0 : number;
 }
 [[nodiscard]] Outputs toOutputs(std::uint32_t outputs, double maxDepth);
 /// Returns the matrices in place; 16 doubles per pose.

@@ -3,9 +3,8 @@
 
 #include "c/handles_vulkan.h"
 #include "voxtact/render.h"
-#include "voxtact/voxtact_render.h"
 
-// Definitions of the opaque types of voxtact_render.h, as in handles.h.
+// Definitions of the opaque types of pictures, as in handles.h.
 
 namespace voxtact::c {
 

@@ -5,7 +5,7 @@
 #include "c/handles.h"
 #include "c/structs.h"
 #include "voxtact/render.h"
-#include "voxtact/voxtact_render.h"
+#include "voxtact/voxtact_vulkan.h"
 
 #include <algorithm>
 #include <cmath>
@@ -113,18 +113,18 @@ vxt_result vxt_lighting_named(const char* name, const vxt_grid* grid, vxt_lighti
             refuse(ErrorCode::InvalidArgument,
                    std::string("there is no light '") + name + "'; there are soft, eye and none");
         }
-        vxt_lighting out = vxt_lighting_init();
-        out.ambient = found->ambient;
-        out.diffuse = found->diffuse;
-        out.specular = found->specular;
-        out.shininess = found->shininess;
+        vxt_lighting out = zero<vxt_lighting>();
+        out.ambient = explicitNumber(found->ambient);
+        out.diffuse = explicitNumber(found->diffuse);
+        out.specular = explicitNumber(found->specular);
+        out.shininess = explicitNumber(found->shininess);
         out.side = found->side;
         std::ranges::copy(found->sideFrom, out.side_from);
         out.occlusion = found->occlusion;
         out.reach = found->reach;
-        out.volume = found->volume ? 1 : 0;
-        out.mesh = found->mesh ? 1 : 0;
-        out.faces = found->faces ? 1 : 0;
+        out.plain_volume = found->volume ? 0 : 1;
+        out.plain_mesh = found->mesh ? 0 : 1;
+        out.gradient_faces = found->faces ? 0 : 1;
         writeStruct(lighting, out, "lighting");
     });
 }

@@ -2,7 +2,7 @@
 // Pictures, of a library without voxtact::render: the functions are there, so that the interface is the same, and
 // refuse.
 #include "c/absent.h"
-#include "voxtact/voxtact_render.h"
+#include "voxtact/voxtact_vulkan.h"
 
 #include <algorithm>
 

@@ -19,47 +19,53 @@ static_assert(VXT_PAINT_DISCARDED == static_cast<int>(Paint::Discarded));
 static_assert(VXT_PAINT_TRIANGLES == static_cast<int>(Paint::Triangles));
 static_assert(VXT_PAINT_VERTICES == static_cast<int>(Paint::Vertices));
 
+// The comments of voxtact_vulkan.h repeat these numbers.
+static_assert(Lighting{}.ambient == 0.25 && Lighting{}.diffuse == 0.75 && Lighting{}.specular == 0.2);
+static_assert(Lighting{}.shininess == 30 && Lighting{}.sideFrom == Vec3{-0.55, 0.6, 0.6} && Lighting{}.reach == 8);
+static_assert(MeshPaint{}.contactColour == Colour{1, 0.23, 0.08});
+static_assert(MeshPaint{}.discardedColour == Colour{0.16, 0.36, 0.88});
+
 SceneMesh toSceneMesh(const vxt_scene_mesh& given) {
     SceneMesh out;
     out.mesh = &need(objectOf(given.mesh), "mesh: mesh");
     out.normals = objectOf(given.normals);
-    out.world_from_object = toMat4(given.world_from_object, "mesh: world_from_object");
-    out.meshColour = toColour(given.colour);
+    out.world_from_object = numbersOr(given.world_from_object, out.world_from_object);
+    out.meshColour = numbersOr(given.colour, out.meshColour);
     out.paint = {.what = number<Paint>(given.paint),
                  .transferFunction = objectOf(given.transfer_function),
                  .threshold = thresholdOf(given.threshold),
                  .triangles = objectOf(given.triangles),
                  .vertices = objectOf(given.vertices),
-                 .contactColour = toColour(given.contact_colour),
-                 .discardedColour = toColour(given.discarded_colour),
+                 .contactColour = numbersOr(given.contact_colour, out.paint.contactColour),
+                 .discardedColour = numbersOr(given.discarded_colour, out.paint.discardedColour),
                  .through = given.through};
     out.clipped = given.clipped != 0;
     return out;
 }
 
 Lighting toLighting(const vxt_lighting* given) {
-    const vxt_lighting from = readOptions(given, vxt_lighting_init(), "lighting");
+    const vxt_lighting from = readOptions(given, zero<vxt_lighting>(), "lighting");
     Lighting out;
-    out.volume = from.volume != 0;
-    out.mesh = from.mesh != 0;
-    out.ambient = from.ambient;
-    out.diffuse = from.diffuse;
-    out.specular = from.specular;
-    out.shininess = from.shininess;
+    out.volume = from.plain_volume == 0;
+    out.mesh = from.plain_mesh == 0;
+    out.ambient = numberOr(from.ambient, out.ambient);
+    out.diffuse = numberOr(from.diffuse, out.diffuse);
+    out.specular = numberOr(from.specular, out.specular);
+    out.shininess = numberOr(from.shininess, out.shininess);
     out.side = from.side;
-    out.sideFrom = toVec3(from.side_from, "side_from");
+    out.sideFrom = numbersOr(from.side_from, out.sideFrom);
     out.occlusion = from.occlusion;
-    out.reach = from.reach;
-    out.faces = from.faces != 0;
+    out.reach = orDefault(from.reach, out.reach);
+    out.faces = from.gradient_faces == 0;
     return out;
 }
 
 /// A caller's scene in the renderer's form, with the data that it references.
 class SceneOf {
   public:
-    explicit SceneOf(const vxt_picture_scene* given) : given_(readStruct(given, vxt_picture_scene_init(), "scene")) {
+    explicit SceneOf(const vxt_picture_scene* given) : given_(readStruct(given, zero<vxt_picture_scene>(), "scene")) {
         for (const vxt_scene_mesh& mesh :
-             readStructs(given_.meshes, given_.mesh_count, vxt_scene_mesh_init(), "mesh")) {
+             readStructs(given_.meshes, given_.mesh_count, zero<vxt_scene_mesh>(), "mesh")) {
             meshes_.push_back(toSceneMesh(mesh));
         }
         const std::span<const vxt_clip_plane> planes =
@@ -84,7 +90,7 @@ class SceneOf {
         out.clip_from_world = toMat4(given_.clip_from_world, "clip_from_world");
         out.background = toColour(given_.background);
         out.lighting = toLighting(given_.lighting);
-        out.jitter = given_.jitter != 0;
+        out.jitter = given_.no_jitter == 0;
         return out;
     }
     /// May be null.
@@ -97,11 +103,11 @@ class SceneOf {
 };
 
 Target toTarget(const vxt_picture_target* given) {
-    const vxt_picture_target from = readStruct(given, vxt_picture_target_init(), "target");
+    const vxt_picture_target from = readStruct(given, zero<vxt_picture_target>(), "target");
     Target out;
     out.view = from.view;
     out.extent = from.extent;
-    out.layout = from.layout;
+    out.layout = orDefault(from.layout, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
     out.targets = from.targets == nullptr ? nullptr : &from.targets->object;
     out.area = from.area;
     out.timestamps = from.timestamps;
@@ -127,7 +133,7 @@ vxt_result vxt_picture_create(vxt_picture** picture) {
 vxt_result vxt_picture_get(const vxt_picture* picture, vxt_picture_view* view) {
     return call([&] {
         const Picture& from = need(picture, "picture").object;
-        vxt_picture_view out = vxt_picture_view_init();
+        vxt_picture_view out = zero<vxt_picture_view>();
         out.rgba = handOut<std::uint8_t>(from.rgba, &out.bytes);
         out.width = from.width;
         out.height = from.height;

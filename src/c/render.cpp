@@ -8,13 +8,14 @@ using namespace voxtact::c;
 
 namespace {
 
+// The comments of voxtact_vulkan.h repeat these numbers.
 static_assert(RenderTransferFunctionDesc{}.opacityUnit == 1 && RenderTransferFunctionDesc{}.step == 0.5);
 
 /// A RenderTransferFunctionDesc with the points that it references.
 class RenderFunctionOf {
   public:
     explicit RenderFunctionOf(const vxt_render_function_desc* given)
-        : given_(readStruct(given, vxt_render_function_desc_init(), "transfer function")) {
+        : given_(readStruct(given, zero<vxt_render_function_desc>(), "transfer function")) {
         for (const vxt_control_point& point : toSpan(given_.points, given_.point_count, "transfer function: points")) {
             points_.push_back({point.value, point.opacity});
         }
@@ -24,10 +25,11 @@ class RenderFunctionOf {
         }
     }
     [[nodiscard]] RenderTransferFunctionDesc desc() const noexcept {
-        return {.opacity = {points_, toRange(given_.domain), given_.table_size},
+        constexpr RenderTransferFunctionDesc kDefaults;
+        return {.opacity = {points_, toRange(given_.domain), orDefault(given_.table_size, kDefaultTableSize)},
                 .colours = colours_,
-                .opacityUnit = given_.opacity_unit,
-                .step = given_.step};
+                .opacityUnit = orDefault(given_.opacity_unit, kDefaults.opacityUnit),
+                .step = orDefault(given_.step, kDefaults.step)};
     }
 
   private:

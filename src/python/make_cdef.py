@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Makes voxtact/_cdef.py, the C declarations for cffi, from the headers.
+"""Makes voxtact/_cdef.py, the C declarations for cffi, from voxtact_vulkan.h and the headers that it includes.
 
-usage: make_cdef.py OUTPUT HEADER...
+usage: make_cdef.py OUTPUT INCLUDE
 """
+import pathlib
 import re
 import sys
 
@@ -26,9 +27,18 @@ VULKAN = "\n".join([*(f"typedef struct {name}_T* {name};" for name in HANDLES),
                     "typedef struct VkRect2D { VkOffset2D offset; VkExtent2D extent; } VkRect2D;"])
 
 
-def declarations(header):
+def expanded(folder, name, seen):
+    """Returns the text of a header, with the headers of voxtact that it includes, each once."""
+    if name in seen:
+        return ""
+    seen.add(name)
+    return re.sub(r'^#include "(.+)"$', lambda found: expanded(folder, found[1], seen),
+                  (folder / name).read_text(encoding="utf-8"), flags=re.MULTILINE)
+
+
+def declarations(text):
     """Returns types and functions, without comments, preprocessor directives and inline functions."""
-    text = re.sub(r"//[^\n]*|/\*.*?\*/", "", header, flags=re.DOTALL)
+    text = re.sub(r"//[^\n]*|/\*.*?\*/", "", text, flags=re.DOTALL)
     text = re.sub(r"^#ifdef __cplusplus\n.*?^#endif\n", "", text, flags=re.MULTILINE | re.DOTALL)
     text = re.sub(r"^#(?:.*\\\n)*.*\n", "", text, flags=re.MULTILINE)
     text = re.sub(r"^static inline .*?^}\n", "", text, flags=re.MULTILINE | re.DOTALL)
@@ -37,11 +47,10 @@ def declarations(header):
 
 
 def main():
-    output, *headers = sys.argv[1:]
+    output, include = sys.argv[1:]
     made = cffi.FFI()
     made.set_source("voxtact._cdef", None)
-    texts = [open(header, encoding="utf-8").read() for header in headers]
-    made.cdef("\n".join([VULKAN, *map(declarations, texts)]))
+    made.cdef(VULKAN + "\n" + declarations(expanded(pathlib.Path(include), "voxtact/voxtact_vulkan.h", set())))
     made.emit_python_code(output)
 
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // As memory_test.cpp, of files: none is read in part.
 #include "memory_sweep.h"
-#include "voxtact/voxtact_files.h"
 
 #include <filesystem>
 #include <fstream>

@@ -5,7 +5,7 @@
 #include "support/scenes.h"
 #include "voxtact/looks.h"
 #include "voxtact/render.h"
-#include "voxtact/voxtact_render.h"
+#include "voxtact/voxtact_vulkan.h"
 
 #include <gmock/gmock.h>
 
@@ -124,7 +124,7 @@ TEST(CLooks, LightsAndColoursAreTheCppInterfaces) {
     const vxt_grid cGridOf = cGrid(grid);
     for (const char* name : {"soft", "eye", "none"}) {
         const Lighting expected = lightingNamed(name, grid).value();
-        vxt_lighting light = vxt_lighting_init();
+        vxt_lighting light = sized<vxt_lighting>();
         need(vxt_lighting_named(name, &cGridOf, &light));
         EXPECT_EQ(light.ambient, expected.ambient) << name;
         EXPECT_EQ(light.diffuse, expected.diffuse) << name;
@@ -134,11 +134,14 @@ TEST(CLooks, LightsAndColoursAreTheCppInterfaces) {
         EXPECT_THAT(light.side_from, ElementsAreArray(expected.sideFrom)) << name;
         EXPECT_EQ(light.occlusion, expected.occlusion) << name;
         EXPECT_EQ(light.reach, expected.reach) << name;
-        EXPECT_EQ(light.volume != 0, expected.volume) << name;
-        EXPECT_EQ(light.mesh != 0, expected.mesh) << name;
-        EXPECT_EQ(light.faces != 0, expected.faces) << name;
+        EXPECT_EQ(light.plain_volume == 0, expected.volume) << name;
+        EXPECT_EQ(light.plain_mesh == 0, expected.mesh) << name;
+        EXPECT_EQ(light.gradient_faces == 0, expected.faces) << name;
+        for (const double number : {light.ambient, light.diffuse, light.specular, light.shininess}) {
+            EXPECT_TRUE(number != 0 || std::signbit(number)) << name << ": 0 stands for the default";
+        }
     }
-    vxt_lighting soft = vxt_lighting_init();
+    vxt_lighting soft = sized<vxt_lighting>();
     need(vxt_lighting_named("soft", &cGridOf, &soft));
     EXPECT_GT(soft.occlusion, 0) << "not that of the eye";
     vxt_lighting unset{};

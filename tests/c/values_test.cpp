@@ -2,6 +2,7 @@
 // Small functions on values: what the C++ interface answers.
 #include "both_interfaces.h"
 #include "support/scenes.h"
+#include "voxtact/voxtact_vulkan.h"
 
 #include <gmock/gmock.h>
 

@@ -150,7 +150,7 @@ class DeviceSide:
 
     def _colours(self, wish: PictureWish, opacity: Opacity) -> CData:
         of = opacity.desc
-        desc = struct("render_function_desc", points=of.points, point_count=of.point_count, domain=of.domain, opacity_unit=1.0,
+        desc = struct("render_function_desc", points=of.points, point_count=of.point_count, domain=of.domain,
                       colours=ffi.cast("vxt_colour_point*", pointer("double", wish.colours)), colour_count=len(wish.colours),
                       step=min(self._grid.spacing) / 2, table_size=min(opacity.table_size, _MAX_ENTRIES))
         return self._upload_for_pictures("render_function", desc)
@@ -172,7 +172,7 @@ class DeviceSide:
                 one = meshes[number]
                 one.mesh, one.normals, one.transfer_function = drawing, normals, self._function
                 one.world_from_object = [float(element) for element in pose.reshape(-1)]
-                one.colour, one.contact_colour, one.discarded_colour = list(colour), [1, 0.23, 0.08], [0.16, 0.36, 0.88]
+                one.colour = [channel or -0.0 for channel in colour]  # three 0 would be the default
                 one.threshold, one.through, one.paint, one.clipped = threshold or -0.0, wish.through, wish.paint, wish.clip_meshes
                 if wish.paint == lib.VXT_PAINT_TRIANGLES:
                     chosen = wish.triangles[number]
@@ -182,7 +182,7 @@ class DeviceSide:
                 number += 1
         scene = struct("picture_scene", volume=self._volume, function=function, bricks=self._bricks, meshes=meshes, mesh_count=number,
                        clip_planes=wish.clips, clip_plane_count=len(wish.clips), lighting=wish.lighting,
-                       clip_from_world=wish.clip_from_world, background=list(wish.background), jitter=1, cancel=self._cancel)
+                       clip_from_world=wish.clip_from_world, background=list(wish.background), cancel=self._cancel)
         picture, view = made("picture", lib.vxt_picture_create), struct("picture_view")
         interruptibly(lambda: check(lib.vxt_blocking_renderer_render(self._renderer, scene, wish.width, wish.height, NULL, NULL,
                                                                      picture)), self._cancel)

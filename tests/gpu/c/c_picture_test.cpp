@@ -5,7 +5,6 @@
 #include "own_image.h"
 #include "voxtact/looks.h"
 #include "voxtact/render.h"
-#include "voxtact/voxtact_render.h"
 
 #include <gmock/gmock.h>
 
@@ -50,7 +49,7 @@ class CPictures : public CGpuTest {
 
     void makeC(const Mat4& clip_from_world) {
         const std::vector<vxt_control_point> points = cPoints(scene_.points);
-        vxt_render_function_desc desc = vxt_render_function_desc_init();
+        vxt_render_function_desc desc = sized<vxt_render_function_desc>();
         desc.points = points.data();
         desc.point_count = points.size();
         desc.colours = kCColours;
@@ -73,12 +72,12 @@ class CPictures : public CGpuTest {
         mesh_.transfer_function = sides_->function.get();
         mesh_.threshold = 0.5;
         mesh_.through = 0.75;
-        mesh_.contact_colour[2] = 0.5;
-        mesh_.colour[0] = 0.3;
-        mesh_.world_from_object[14] = 0.125;
+        set(mesh_.contact_colour, {1, 0.23, 0.5});
+        set(mesh_.colour, {0.3, 0.78, 0.82});
+        std::ranges::copy(translation({0, 0, 0.125}), mesh_.world_from_object);
         lighting_.ambient = 0.4;
         lighting_.side = 0.3;
-        lighting_.faces = 0;
+        lighting_.gradient_faces = 1;
         c_.volume = sides_->volume.get();
         c_.function = function_.get();
         c_.bricks = bricks_.get();
@@ -89,8 +88,9 @@ class CPictures : public CGpuTest {
         c_.lighting = &lighting_;
         std::ranges::copy(clip_from_world, c_.clip_from_world);
         c_.background[1] = 0.25;
-        c_.jitter = 0;
+        c_.no_jitter = 1;
     }
+    static void set(double (&colour)[3], const Colour& to) { std::ranges::copy(to, colour); }
 
     [[nodiscard]] std::vector<Colour> vertexColours() const {
         std::vector<Colour> colours;
@@ -156,7 +156,7 @@ class CPictures : public CGpuTest {
     }
 
     [[nodiscard]] static vxt_picture_view viewOf(const vxt_picture& picture) {
-        vxt_picture_view view = vxt_picture_view_init();
+        vxt_picture_view view = sized<vxt_picture_view>();
         need(vxt_picture_get(&picture, &view));
         return view;
     }
@@ -184,10 +184,10 @@ class CPictures : public CGpuTest {
     Owned<vxt_mesh_normals> normals_{nullptr, vxt_mesh_normals_destroy};
     Owned<vxt_painted_triangles> painted_{nullptr, vxt_painted_triangles_destroy};
     Owned<vxt_painted_vertices> vertices_{nullptr, vxt_painted_vertices_destroy};
-    vxt_scene_mesh mesh_ = vxt_scene_mesh_init();
+    vxt_scene_mesh mesh_ = sized<vxt_scene_mesh>();
     vxt_clip_plane plane_{{1, 1, 0}, 1.4};
-    vxt_lighting lighting_ = vxt_lighting_init();
-    vxt_picture_scene c_ = vxt_picture_scene_init();
+    vxt_lighting lighting_ = sized<vxt_lighting>();
+    vxt_picture_scene c_ = sized<vxt_picture_scene>();
     Owned<vxt_picture> picture_ = made(vxt_picture_destroy, vxt_picture_create);
     std::unique_ptr<CppParts> cppParts_;
     Scene cpp_;
@@ -238,13 +238,39 @@ TEST_F(CPictures, ShowEveryPartOfTheScene) {
     expectSeen(
         "background", [&] { c_.background[2] = 1; }, [&] { cpp_.background[2] = 1; });
     expectSeen(
-        "jitter", [&] { c_.jitter = 1; }, [&] { cpp_.jitter = true; });
+        "jitter", [&] { c_.no_jitter = 0; }, [&] { cpp_.jitter = true; });
     expectSeen(
         "clipped", [&] { mesh_.clipped = 1; }, [&] { cppParts_->sceneMesh.clipped = true; });
     expectSeen(
         "pose", [&] { mesh_.world_from_object[12] = 0.2; }, [&] { cppParts_->sceneMesh.world_from_object[12] = 0.2; });
     expectSeen(
         "colour", [&] { mesh_.colour[2] = 0.1; }, [&] { cppParts_->sceneMesh.meshColour[2] = 0.1; });
+}
+
+TEST_F(CPictures, ZerosAreTheDefaultsAndNegativeZerosAreZeros) {
+    const vxt_mesh* const mesh = mesh_.mesh;
+    mesh_ = sized<vxt_scene_mesh>();
+    mesh_.mesh = mesh;
+    lighting_ = sized<vxt_lighting>();
+    c_.no_jitter = 0;
+    cppParts_->sceneMesh = {.mesh = cppParts_->sceneMesh.mesh};
+    cpp_.lighting = {};
+    cpp_.jitter = true;
+    const std::vector<std::uint8_t> defaults = byC();
+    EXPECT_EQ(defaults, byCpp());
+    mesh_.colour[1] = -0.0;
+    cppParts_->sceneMesh.meshColour = {0, 0, 0};
+    const std::vector<std::uint8_t> black = byC();
+    EXPECT_EQ(black, byCpp());
+    EXPECT_NE(black, defaults);
+    mesh_.colour[1] = 0;
+    cppParts_->sceneMesh.meshColour = SceneMesh{}.meshColour;
+    lighting_.ambient = lighting_.diffuse = lighting_.specular = lighting_.shininess = -0.0;
+    Lighting& lighting = cpp_.lighting;
+    lighting.ambient = lighting.diffuse = lighting.specular = lighting.shininess = 0;
+    const std::vector<std::uint8_t> dark = byC();
+    EXPECT_EQ(dark, byCpp());
+    EXPECT_NE(dark, defaults);
 }
 
 TEST_F(CPictures, TellHowFarTheyAre) {
@@ -330,7 +356,7 @@ TEST_F(CPictures, AreRecordedIntoTheCallersCommands) {
     const auto own = made(vxt_renderer_destroy, vxt_renderer_create, context_.get(), VK_FORMAT_R8G8B8A8_UNORM);
     const auto targets = made(vxt_render_targets_destroy, vxt_render_targets_create, own.get(), kWidth, kHeight);
     const std::vector<vxt_control_point> points = cPoints(scene_.points);
-    vxt_render_function_desc desc = vxt_render_function_desc_init();
+    vxt_render_function_desc desc = sized<vxt_render_function_desc>();
     desc.domain = {scene_.domain.lo, scene_.domain.hi};
     desc.points = points.data();
     desc.point_count = points.size();
@@ -359,7 +385,7 @@ TEST_F(CPictures, AreRecordedIntoTheCallersCommands) {
         RenderTargets unused = take(RenderTargets::create(cppParts_->blocking.renderer(), {kWidth, kHeight}));
         return image.target(unused);
     }();
-    vxt_picture_target target = vxt_picture_target_init();
+    vxt_picture_target target = sized<vxt_picture_target>();
     target.targets = targets.get();
     target.view = cppTarget.view;
     target.extent = cppTarget.extent;
@@ -402,7 +428,7 @@ TEST_F(CPictures, RefuseWhatTheCppInterfaceRefuses) {
     mesh_.paint = VXT_PAINT_PLAIN;
     lighting_.ambient = std::nan("");
     EXPECT_THAT(refused(), HasSubstr("the lighting has a value of nan"));
-    lighting_ = vxt_lighting_init();
+    lighting_ = sized<vxt_lighting>();
     c_.clip_plane_count = 7;
     std::vector<vxt_clip_plane> planes(7, plane_);
     c_.clip_planes = planes.data();
