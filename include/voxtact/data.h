@@ -263,6 +263,11 @@ struct LabelData {
 /// of labels other than the number of voxels.
 [[nodiscard]] VOXTACT_API Result<LabelData> makeLabels(const Grid& grid, std::span<const std::int32_t> labels);
 
+/// Returns a label map on a volume's grid, of which the map's own is a part: the same directions and spacing, an offset
+/// of whole voxels, to a thousandth of one. Voxels outside that part have the label 0. Refuses other grids
+/// (Unsupported). O(voxels).
+[[nodiscard]] VOXTACT_API Result<LabelData> labelsOnGrid(const LabelData& labels, const Grid& volume);
+
 /// Returns the index into `values` for a world point; that of label 0 outside the grid. Along an axis of n voxels, the
 /// voxel is floor(n * texture coordinate): half way between two centres the upper one, at 1 the last one. Expects what
 /// makeLabels() returns.

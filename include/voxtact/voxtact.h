@@ -302,6 +302,8 @@ VXT_API void vxt_mesh_data_destroy(vxt_mesh_data* data);
 typedef struct vxt_labels vxt_labels;
 /// Creates a label map from an image of labels. Refuses what voxtact::makeLabels() refuses.
 VXT_CHECKED vxt_result vxt_labels_create(const vxt_volume_view* volume, vxt_labels** labels);
+/// Creates the label map on a volume's grid, of which the map's own is a part: voxtact::labelsOnGrid().
+VXT_CHECKED vxt_result vxt_labels_on_grid(const vxt_labels* labels, const vxt_grid* volume, vxt_labels** on_grid);
 /// Returns the labels, ascending, each once, including 0.
 VXT_API const int32_t* vxt_labels_values(const vxt_labels* labels, size_t* count);
 /// Returns the position of the voxels.

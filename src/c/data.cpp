@@ -164,6 +164,11 @@ vxt_result vxt_labels_create(const vxt_volume_view* volume, vxt_labels** labels)
     return create(labels, [&] { return take(makeLabels(toVolumeView(volume))); });
 }
 
+vxt_result vxt_labels_on_grid(const vxt_labels* labels, const vxt_grid* volume, vxt_labels** on_grid) {
+    return create(on_grid,
+                  [&] { return take(labelsOnGrid(need(labels, "labels").object, toGrid(need(volume, "volume")))); });
+}
+
 const int32_t* vxt_labels_values(const vxt_labels* labels, size_t* count) {
     return handOut(labels == nullptr ? std::span<const std::int32_t>() : labels->object.values, count);
 }

@@ -83,6 +83,11 @@ def test_labels(scene, knife, head):
     assert (found.lower.sum(axis=1) <= labelled.overlap(knife, poses).upper).all()
     with pytest.warns(UserWarning, match="label 254; overlaps with it are 0$"):
         assert labelled.overlap(knife, poses[0], labels=[254]).upper.tolist() == [[0]]
+    part = vx.read_volume(head.array[1:-1, 2:-2, 3:-3].copy(), axes="zyx", space="ras",
+                          affine=head.affine @ np.array([[1, 0, 0, 3], [0, 1, 0, 2], [0, 0, 1, 1], [0, 0, 0, 1.0]]))
+    on_a_part = vx.Scene(head, opacity=[(40, 0), (80, 1)], labels=part)
+    cropped = on_a_part.overlap(knife, poses, labels=[120, 70])
+    assert np.array_equal(cropped.lower, found.lower) and np.array_equal(cropped.upper, found.upper)
     with pytest.raises(vx.InvalidArgumentError, match="overlaps with labels need a scene with labels="):
         scene.overlap(knife, poses, labels=[1])
     with pytest.raises(vx.InvalidArgumentError, match="bands= or labels=, not both"):

@@ -135,6 +135,15 @@ Result<LabelData> labelsOnGrid(const LabelData& labels, const Grid& volume, cons
     });
 }
 
+Result<LabelData> labelsOnGrid(const LabelData& labels, const Grid& volume) {
+    VOXTACT_TRY(checkGrid(volume));
+    VOXTACT_TRY(checkGrid(labels.grid));
+    if (voxelCount(labels.grid) != labels.indices.size() || !std::ranges::binary_search(labels.values, 0)) {
+        return refuse("the label map is none of makeLabels()");
+    }
+    return labelsOnGrid(labels, volume, "the label map");
+}
+
 Result<void> checkMeasuredLabels(std::span<const std::int32_t> labels) {
     if (labels.size() > kMaxMeasuredLabels) {
         return Error{ErrorCode::LimitExceeded, 0,

@@ -152,6 +152,14 @@ class Labels:
         found = lib.vxt_labels_values(self.handle, count)
         self.values: npt.NDArray[np.int32] = read_only(shown(found, (count[0],), np.int32, self.handle))
 
+    def on(self, grid: CData) -> CData:
+        """Returns the vxt_labels on a volume's grid, of which the map's own may be a part; else the map as it is."""
+        own, place = ffi.new("vxt_grid*"), ffi.new("vxt_labels**")
+        check(lib.vxt_labels_grid(self.handle, own))
+        if list(own.size) == list(grid.size) or guarded(lib.vxt_labels_on_grid, self.handle, ffi.addressof(grid), place):
+            return self.handle
+        return ffi.gc(place[0], lib.vxt_labels_destroy)
+
     def at(self, points: npt.NDArray[np.float64]) -> npt.NDArray[np.int32]:
         if points.ndim != 2 or points.shape[1] != 3:
             refuse("points have the wrong shape; (N,3) is needed")

@@ -38,7 +38,7 @@ class HostSide:
     def __init__(self, volume: Volume, opacity: Opacity, threads: int, labels: Optional[Labels], cancel: CData) -> None:
         self._given = volume
         self.volume = made("host_volume", lib.vxt_host_volume_create, volume.view)
-        self.labels = NULL if labels is None else labels.handle
+        self.labels = NULL if labels is None else labels.on(volume.view.grid)
         self._wanted_threads = threads
         self._cancel = cancel
         self._engine: CData = None
