@@ -53,7 +53,7 @@ class Measuring:
         """Measures the distance from the mesh's surface to the opaque region, mm: certified bounds for each pose.
 
         tolerance
-            mm, from 1e-6 on: stops when upper - lower is at most this
+            mm: stops when upper - lower is at most this
         max
             mm: stops when lower reaches this; `upper` is then infinite
         labels
@@ -86,7 +86,7 @@ class Measuring:
         """Measures the area of the mesh's surface that is opaque, mm^2: certified bounds for each pose.
 
         tolerance
-            mm^2, from 1e-9 on: stops when upper - lower is at most this
+            mm^2: stops when upper - lower is at most this
         labels
             measures in the opaque part of each of these labels, by number or name (True: all but 0): a column for each.
             The scene's label map must be on its volume's grid. The area in a label without voxels is 0; a warning says so
@@ -113,7 +113,7 @@ class Measuring:
         """Measures the opaque volume inside the closed mesh, mm^3: an `Overlap` with certified bounds for each pose.
 
         tolerance
-            mm^3, from 1e-9 on: stops when upper - lower is at most this; None: the default
+            mm^3: stops when upper - lower is at most this; None: the default
         bands
             ascending values, at most 64: measures the volume of each band: values below the first limit, between two
             limits, and from the last limit on, opaque or not: a column for each band
@@ -175,7 +175,7 @@ class Measuring:
             "screw": along and about one axis. "slerp": the centre of the mesh's box moves straight, and the mesh rotates
             about it. Both by at most half a turn, at constant speed; near half a turn rounding may choose the side
         resolution
-            mm, from 1e-6 on: maximum motion of the mesh from `toi_lower` to `toi_upper`
+            mm: maximum motion of the mesh from `toi_lower` to `toi_upper`
         max_steps
             iteration limit per segment
         progress
