@@ -114,7 +114,7 @@ void HostAnswers::work() {
     }
 }
 
-/// The live question: the volume becomes its own first.
+/// The live question: first updates the volume.
 void HostAnswers::follow(const LiveQuestion& question, const std::vector<HoleWrite>& writes) {
     for (const HoleWrite& write : writes) {
         if (const Result<void> written = volume_.write(write.hole->box, write.voxels()); !written.ok()) {

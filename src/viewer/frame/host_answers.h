@@ -16,20 +16,20 @@ namespace voxtact::view {
 /// new question cancels measurements and comparisons.
 class HostAnswers {
   public:
-    /// Copies what it needs of the state. `wake`: called from its thread when there is an answer.
+    /// Copies its inputs from the state. `wake`: called from its thread when there is an answer.
     [[nodiscard]] static Result<std::unique_ptr<HostAnswers>> create(const State& state, std::function<void()> wake);
     ~HostAnswers();
 
-    /// The clearance, then the area, and the answer where the question's method is the host's. `writes`: to the volume
-    /// since it was read.
+    /// Measures the distance, then the area, and answers if the question's method is the host's. `writes`: to the
+    /// volume since it was read.
     void ask(LiveQuestion question, const HoleWrites& writes);
-    /// The number of the first write that was not taken over yet.
+    /// Number of the first write that was not applied yet.
     [[nodiscard]] std::uint64_t written() const { return written_; }
-    /// A question of a comparison, when there is nothing else to do.
+    /// Asks a question of a comparison, if idle.
     void compare(LiveQuestion question);
     /// Returns the result of a comparison's question, once; Cancelled if another question cancelled it.
     [[nodiscard]] std::optional<Result<LiveAnswer>> takeCompared();
-    /// The newest answer, once; nothing where there is no new one.
+    /// Returns the newest answer, once; empty if there is no new one.
     [[nodiscard]] std::optional<Result<LiveAnswer>> take();
     /// Returns the distances, once without and once with areas.
     [[nodiscard]] std::optional<Result<LiveClearance>> takeClearance();

@@ -40,7 +40,7 @@ void drawTimes(const State& state) {
     shortLine(quietColour(), text.data());
 }
 
-/// The verdicts of the last seconds by their colours, and how long each took: a bar, by powers of ten from 0.01 ms on.
+/// Draws the verdicts of the last seconds as colours, and their times as bars on a logarithmic scale from 0.01 ms on.
 void drawStrip(const State& state) {
     constexpr double kLeast = 0.01; // ms
     constexpr double kMost = 1000;

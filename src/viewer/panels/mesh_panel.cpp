@@ -31,7 +31,7 @@ std::string nearness(const MeshClearance& clearance) {
     return (std::isinf(hi) ? "> " : "") + lowerText(lo) + " mm";
 }
 
-/// Verdict, count and clearance, pale where they are of the question before.
+/// Draws verdict, count and distance, pale for an earlier question.
 void drawSaid(const State& state, std::size_t mesh) {
     const MeshAnswer* answer = state.answer ? state.answer->of(mesh) : nullptr;
     ImGui::TableNextColumn();
@@ -123,7 +123,7 @@ void drawMeshes(State& state) {
         ImGui::TableSetupColumn(column, name ? ImGuiTableColumnFlags_WidthStretch : ImGuiTableColumnFlags_WidthFixed);
     }
     Wish wish;
-    // One that becomes the chosen one is brought into sight, and then the wheel may leave it.
+    // Scrolls to a newly chosen mesh once.
     const std::size_t chosen = state.document.edit.instrument().mesh;
     const bool scrolls = std::exchange(state.listedMesh, chosen) != chosen;
     for (std::size_t number = 0; number < count; ++number) {
