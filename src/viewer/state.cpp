@@ -305,8 +305,8 @@ const MeshAnswer* State::chosenAnswer() const {
     return answer ? answer->of(document.edit.instrument().mesh) : nullptr;
 }
 
-const MeshClearance* State::chosenClearance() const {
-    return clearance ? clearance->of(document.edit.instrument().mesh) : nullptr;
+const MeshClearance* State::chosenDistance() const {
+    return distances ? distances->of(document.edit.instrument().mesh) : nullptr;
 }
 
 void State::takePose(std::size_t number, bool held) {

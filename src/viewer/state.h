@@ -137,7 +137,7 @@ struct State {
     void remove(std::size_t number);
     /// Answer about the chosen instrument; null without one.
     [[nodiscard]] const MeshAnswer* chosenAnswer() const;
-    [[nodiscard]] const MeshClearance* chosenClearance() const;
+    [[nodiscard]] const MeshClearance* chosenDistance() const;
     /// Since it was made.
     [[nodiscard]] double seconds() const;
     /// True if nothing changed for a moment.
@@ -190,7 +190,7 @@ struct State {
     std::uint64_t revision = 1;        ///< changes with inputs of the answer
     std::uint64_t pictureRevision = 1; ///< changes with inputs of the large picture
     std::optional<LiveAnswer> answer;
-    std::optional<LiveClearance> clearance; ///< of this question or one before
+    std::optional<LiveClearance> distances; ///< of this question or one before
     Comparison comparison;                  ///< of the methods, while `comparing`
     Times times;
     Strip strip; ///< by seconds()

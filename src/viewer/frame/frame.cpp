@@ -176,11 +176,11 @@ Result<void> Frames::collectAnswers(State& state, double wallMilliseconds, bool 
     if (std::optional<Result<LiveAnswer>> answer = stage_->host->take()) {
         take(state, std::move(*answer));
     }
-    if (std::optional<Result<LiveClearance>> clearance = stage_->host->takeClearance()) {
-        if (clearance->ok()) {
-            state.clearance = **clearance;
-        } else if (clearance->error().code != ErrorCode::Cancelled) {
-            state.complain(clearance->error().text);
+    if (std::optional<Result<LiveClearance>> distances = stage_->host->takeDistances()) {
+        if (distances->ok()) {
+            state.distances = **distances;
+        } else if (distances->error().code != ErrorCode::Cancelled) {
+            state.complain(distances->error().text);
         }
     }
     VOXTACT_TRY(collectBeside(state));

@@ -32,7 +32,7 @@ class HostAnswers {
     /// Returns the newest answer, once; empty if there is no new one.
     [[nodiscard]] std::optional<Result<LiveAnswer>> take();
     /// Returns the distances, once without and once with areas.
-    [[nodiscard]] std::optional<Result<LiveClearance>> takeClearance();
+    [[nodiscard]] std::optional<Result<LiveClearance>> takeDistances();
 
   private:
     HostAnswers(cpu::HostEngine engine, cpu::Volume volume, std::vector<cpu::Mesh> meshes, const State& state,
@@ -44,7 +44,7 @@ class HostAnswers {
     [[nodiscard]] Result<LiveAnswer> answer(const LiveQuestion& question, const std::atomic<bool>& cancel);
     [[nodiscard]] Result<LiveClearance> measure(const LiveQuestion& question);
     /// Adds the areas to the distances.
-    [[nodiscard]] Result<LiveClearance> withAreas(const LiveQuestion& question, LiveClearance clearance);
+    [[nodiscard]] Result<LiveClearance> withAreas(const LiveQuestion& question, LiveClearance distances);
     void follow(const LiveQuestion& question, const std::vector<HoleWrite>& writes);
 
     cpu::HostEngine engine_;
@@ -68,7 +68,7 @@ class HostAnswers {
     std::uint64_t written_ = 0;     ///< that were taken over
     std::optional<Result<LiveAnswer>> answer_;
     std::optional<Result<LiveAnswer>> compared_;
-    std::optional<Result<LiveClearance>> clearance_;
+    std::optional<Result<LiveClearance>> distances_;
     std::atomic<bool> stop_ = false;
     std::atomic<bool> newer_ = false; ///< a question waits
     std::thread thread_;

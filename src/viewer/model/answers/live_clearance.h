@@ -35,10 +35,10 @@ struct LiveClearance {
 [[nodiscard]] std::string upperText(double mm);
 
 /// "12.34 to 12.35 mm away", "touches", "820.05 to 820.15 mm² touch", "nothing is opaque".
-[[nodiscard]] std::string clearanceText(const MeshClearance& clearance);
+[[nodiscard]] std::string clearanceText(const MeshClearance& measured);
 
 /// The two closest points, on the mesh and in the opaque region; empty if it touches, or nothing is opaque.
-[[nodiscard]] std::optional<std::array<Vec3, 2>> closestSegment(const PairDistance& clearance) noexcept;
+[[nodiscard]] std::optional<std::array<Vec3, 2>> closestSegment(const PairDistance& pair) noexcept;
 
 /// Returns the distance in mm from a plane perpendicular to a world axis to the nearer end of a segment; 0 if it
 /// crosses the plane.

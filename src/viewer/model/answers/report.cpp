@@ -33,7 +33,7 @@ Json areaJson(const StateReport& report, std::size_t mesh) {
 }
 
 /// Null until it is measured.
-Json clearanceJson(const StateReport& report, std::size_t mesh) {
+Json distanceJson(const StateReport& report, std::size_t mesh) {
     const MeshClearance* measured = measuredOf(report, mesh);
     if (measured == nullptr) {
         return nullptr;
@@ -71,7 +71,7 @@ void addMesh(Json& json, const StateReport& report, const MeshAnswer& answer) {
     }
     json["triangles"] = answer.triangles.size();
     json["contacts"] = answer.contactsFound;
-    json["clearance"] = clearanceJson(report, answer.instrument.mesh);
+    json["clearance"] = distanceJson(report, answer.instrument.mesh);
     json["area"] = areaJson(report, answer.instrument.mesh);
     if (report.labels != nullptr) {
         json["labels"] = labelsJson(*report.labels, answer);
