@@ -26,7 +26,7 @@ layout(set = VOXTACT_SET_MESH, binding = VOXTACT_BINDING_VERTICES, std430) reado
 layout(set = VOXTACT_SET_MESH, binding = VOXTACT_BINDING_INDICES, std430) readonly buffer Indices { uint indices[]; };
 layout(push_constant) uniform Item { ComputeConstants constants; };
 
-// One addition a work group: a carry that is not needed costs nothing.
+// One addition per work group: an unneeded carry costs nothing.
 const bool kCarry = true;
 const bool kYesNo = false;
 
@@ -40,16 +40,16 @@ uint pairAtWork;
 uint triangleAtWork;
 #endif
 
-/// A piece is a triangle, or one triangle of the fan that clipping made of it: triangle * 8 + number in the fan.
+/// A piece is a triangle, or one triangle of its fan after clipping: triangle * 8 + number in the fan.
 #define MOST_PIECES (EXACT_MAX_CORNERS - 2)
 const int kMostPixelsOfALane = 64;
 
 shared uint queue[VOXTACT_COMPUTE_GROUP * MOST_PIECES];
 shared uint queued;
-shared uint groupLow; // survivors of the work group: together they are more than 32 bits hold
+shared uint groupLow; // passing fragments of the work group: their sum exceeds 32 bits
 shared uint groupHigh;
 
-/// The pieces of a triangle: their number. The corners of the polygon are left in `exactPolygon`.
+/// Returns the number of pieces of a triangle. Stores the corners of the polygon in `exactPolygon`.
 int piecesOf(PairTransform transform, uint triangle) {
     for (uint corner = 0; corner < 3; ++corner) {
         exactPolygon[corner] = cornerOf(constants.mesh, transform, 3 * triangle + corner);
@@ -93,8 +93,8 @@ uint countPixels(ExactTriangle piece, int first, int step) {
 }
 
 /// Counts the small pieces of a lane's own triangle, and queues the others. With `isQueued`: counts this lane's pixels
-/// of a queued piece, number `queuedNumber` of its triangle. Every lane sets that piece up again: cheaper than keeping
-/// it. One text for both: compilers of shaders copy a function wherever it is called.
+/// of a queued piece, number `queuedNumber` of its triangle. Every lane sets that piece up again, which is cheaper than
+/// storing it. One function for both, because shader compilers inline every call.
 uint countPieces(PairTransform transform, uint triangle, bool isQueued, uint queuedNumber) {
 #ifdef OUTPUTS
     triangleAtWork = triangle;
@@ -142,7 +142,7 @@ void main() {
     const PairTransform transform = transforms[view];
     uint survivors = 0;
     uint turns = 1;
-    for (uint turn = 0; turn < turns; ++turn) { // its own triangle, and then what is queued, with all others
+    for (uint turn = 0; turn < turns; ++turn) { // its own triangle, then the queued pieces, with all lanes
         const bool isQueued = turn > 0;
         const uint entry = isQueued ? queue[turn - 1] : 0;
         const uint at = isQueued ? entry / 8 : triangle;

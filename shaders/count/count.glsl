@@ -3,7 +3,7 @@
 #ifndef VOXTACT_COUNT_GLSL
 #define VOXTACT_COUNT_GLSL
 
-/// Some survivors: more than none. Exact to 64 bits: the addition that makes the low word wrap carries one.
+/// Adds passing fragments, at least one. Exact to 64 bits: the addition that wraps the low word carries one.
 void addSurvivors(uint pair, uint survivors) {
     if (kYesNo) {
         atomicOr(results[pair].countLow, 1u);
@@ -15,7 +15,7 @@ void addSurvivors(uint pair, uint survivors) {
     }
 }
 
-/// The same of high * 2^32 + low.
+/// Adds high * 2^32 + low.
 void addSurvivors(uint pair, uint low, uint high) {
     if (low > 0) {
         addSurvivors(pair, low);

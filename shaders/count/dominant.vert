@@ -28,7 +28,7 @@ void main() {
     }
     const bool seen = dominantProject(corners[0], corners[1], corners[2], constants.grid);
     const ExactCorner corner = corners[uint(gl_VertexIndex) - first];
-    // A triangle that is not seen is put beside the viewport, where nothing makes fragments of it.
+    // An invisible triangle goes outside the viewport, where it has no fragments.
     gl_Position = seen ? vec4(corner.x, corner.y, corner.z, corner.w) : vec4(-3.0, -3.0, 0.5, 1.0);
     textureCoordinate = vec3(corner.tx, corner.ty, corner.tz);
     pair = gl_InstanceIndex;

@@ -21,7 +21,7 @@ shared uint sum;
 shared uint bits;
 shared uint most;
 
-/// `at`: where in `outputs` the results of this kind begin.
+/// `at`: index in `outputs` of the first result of this kind.
 void together(uint at, uint value) {
     if (gl_LocalInvocationIndex == 0) {
         sum = 0;

@@ -34,7 +34,7 @@ void emitBound(OutputPair pair, ContactVector position) {
     atomicMax(outputs[pair.firstBound + 5u], orderedWord(position.z));
 }
 
-/// Number of the label at a texture coordinate.
+/// Returns the number of the label at a texture coordinate.
 uint labelAt(OutputPair pair, ContactVector at) {
     if (pair.labelCount == 0u) {
         return 0u;
@@ -56,14 +56,14 @@ void writeVector(uint word, ContactVector vector) {
     outputs[word + 2u] = floatBitsToUint(vector.z);
 }
 
-/// What the `exact` filter finds at a texture coordinate.
+/// Returns the sample of the `exact` filter at a texture coordinate.
 ContactSample sampleAt(OutputPair pair, ContactVector at) {
     const ContactVector inside = contactClamp(at);
     const float stored = exactStored(vec3(inside.x, inside.y, inside.z), pair.item.storedUnit);
     return contactSample(stored, exactTable(stored, pair.item));
 }
 
-/// A ContactResult, where the list has room for it.
+/// Stores a ContactResult, if the list has room.
 void emitContact(OutputPair pair, uint number, uint triangle, ContactVector at, ContactVector position, uint label,
                  ContactSample found) {
     const uint before = atomicAdd(outputs[pair.contacts], 1u);
@@ -87,7 +87,7 @@ void emitContact(OutputPair pair, uint number, uint triangle, ContactVector at, 
     outputs[word + 11u] = label;
 }
 
-/// A survivor of the pair of that number, at a texture coordinate; `found` is for contacts alone.
+/// Records a passing fragment of a pair at a texture coordinate; `found` is for contacts only.
 void emitSurvivor(uint number, uint triangle, ContactVector at, ContactSample found) {
     const OutputPair pair = outputPairs[number];
     const ContactVector position =
@@ -107,7 +107,7 @@ void emitSurvivor(uint number, uint triangle, ContactVector at, ContactSample fo
     }
 }
 
-/// The same, where a contact says what is found by a look at its place.
+/// Like above, with a contact's values looked up at its place.
 void emitSurvivor(uint number, uint triangle, vec3 textureCoordinate) {
     const ContactVector at = contactVector(textureCoordinate.x, textureCoordinate.y, textureCoordinate.z);
     ContactSample found = contactSample(0.0, 0.0);

@@ -17,7 +17,7 @@ WideMatrix matrixAt(uint word) {
     return matrix;
 }
 
-/// Of an item that begins at a word.
+/// Reads the grid of an item that begins at a word.
 PairOrigin originAt(uint word) {
     PairOrigin origin;
     const uint at = word + VOXTACT_SETUP_ORIGIN;

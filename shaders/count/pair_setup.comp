@@ -36,12 +36,12 @@ layout(push_constant) uniform Constants { PairSetupConstants constants; };
 #define POSE_WORDS 16
 #endif
 
-/// A pose as it lies in the buffer.
+/// A pose in the layout of the buffer.
 struct PoseBits {
     uint word[POSE_WORDS];
 };
 
-/// All of it at once, not one element after the other: mapped memory is a microsecond away from a GPU.
+/// Loads all elements at once: a GPU waits a microsecond for each read of mapped memory.
 PoseBits poseBits(uint at) {
     PoseBits pose;
     for (uint i = 0; i < POSE_WORDS; ++i) {
@@ -59,7 +59,7 @@ Wide elementOf(PoseBits pose, uint i) {
     return wideBits(pose.word[2 * i + 1], pose.word[2 * i]);
 }
 #else
-/// Whether all of a pose is finite, and its last row that of an affine map.
+/// Returns true if a pose is finite and affine.
 bool isUsable(PoseBits pose) {
     bool usable = true;
     ROLLED for (uint i = 0; i < 16; ++i) {
@@ -86,7 +86,7 @@ WideMatrix matrixOf(PoseBits pose) {
 }
 
 #ifdef CERTIFIED
-/// A mesh that is far from every cell.
+/// Places the mesh far from every cell.
 CertifiedPair nowhere() {
     CertifiedPair pair;
     pair.reference = vec4(0);
@@ -109,7 +109,7 @@ void setUp(uint pair, PoseBits pose, bool usable) {
     }
 }
 #else
-/// A mesh outside of the image and of every view.
+/// Places the mesh outside the image and every view.
 PairTransform nowhere() {
     PairTransform transform;
     ROLLED for (int row = 0; row < 4; ++row) {

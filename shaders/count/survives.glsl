@@ -35,12 +35,12 @@ float exactOpacity(vec3 coordinate, ItemConstants item) {
 }
 
 float hardwareOpacity(vec3 coordinate, ItemConstants item) {
-    // An explicit level: after a discard there are no derivatives to choose one by.
+    // Explicit level: after a discard there are no derivatives.
     const float texel = textureLod(volume, coordinate, 0.0).r;
     return textureLod(transferFunction, texel * item.scalarScale + item.scalarBias, 0.0).r;
 }
 
-/// Whether the paper's fragment program lets a fragment live. Comparisons are such that a NaN dies.
+/// Returns true if the fragment passes in the paper's fragment program. NaN fails every comparison.
 bool survives(vec3 coordinate, ItemConstants item, bool rangeTest, bool exact) {
     if (rangeTest &&
         !(exactInDomain(coordinate.x) && exactInDomain(coordinate.y) && exactInDomain(coordinate.z))) {

@@ -32,7 +32,7 @@ layout(location = 1) flat in uint pair;
 #endif
 
 #if defined(OUTPUTS) || defined(LIST_FRAGMENTS)
-/// The number in the mesh: a mesh may take several draws.
+/// Number in the mesh: a mesh may take several draws.
 uint triangle() {
     return constants.firstTriangle + uint(gl_PrimitiveID);
 }
@@ -46,7 +46,7 @@ layout(set = VOXTACT_SET_PAIRS, binding = VOXTACT_BINDING_RESULTS, std430) buffe
 
 #ifdef LIST_FRAGMENTS
 layout(set = VOXTACT_SET_TRACE, binding = 0, std430) buffer Trace {
-    uint traced; // all survivors, also those that the list has no room for
+    uint traced; // all passing fragments, including those that the list has no room for
     TracedFragment fragments[];
 };
 void list() {
@@ -58,8 +58,8 @@ void list() {
 #endif
 
 #ifdef COUNT_SUBGROUP
-/// One addition for all survivors of a subgroup that belong to the same pair. Helper lanes take part in ballots: they
-/// cover no sample. (Not gl_HelperInvocation, which some drivers cannot compile.)
+/// One addition per subgroup and pair. Helper lanes take part in ballots; they cover no sample. (gl_HelperInvocation
+/// does not compile on some drivers.)
 void countSubgroup(bool survivor) {
     bool waiting = survivor && gl_SampleMaskIn[0] != 0;
     for (uvec4 lanes = subgroupBallot(waiting); lanes != uvec4(0u); lanes = subgroupBallot(waiting)) {

@@ -16,9 +16,9 @@ layout(location = 0) out vec3 textureCoordinate;
 layout(location = 1) flat out uint pair;
 
 void main() {
-    // The instance index counts from firstInstance: it is the number of the view in the batch.
-    // In exact arithmetic a picture decides the same fragments, by a pipeline of its own (render_mesh.vert). What
-    // `invariant` promises of gl_Position is that too, but lavapipe complains about it in every messenger.
+    // The instance index counts from firstInstance: it is the number of the view in the batch. The pipeline of a
+    // picture (render_mesh.vert) decides the same fragments in exact arithmetic. `invariant` gl_Position would
+    // guarantee this, but lavapipe reports a message for it.
     const ExactCorner corner = exactVertex(transforms[gl_InstanceIndex], position.x, position.y, position.z);
     gl_Position = vec4(corner.x, corner.y, corner.z, corner.w);
     textureCoordinate = vec3(corner.tx, corner.ty, corner.tz);

@@ -7,7 +7,7 @@
 #ifndef VOXTACT_WIDE_DOUBLES_GLSL
 #define VOXTACT_WIDE_DOUBLES_GLSL
 
-// What takes only words must be told from what is here.
+// Overloads for words must differ from these.
 #define Wide WideIntegers
 #define wideOfFloatBits wideIntegersOfFloatBits
 #include "exact/wide_integers.h"

@@ -13,28 +13,29 @@ layout(set = PICTURE_SET_TARGETS, binding = PICTURE_BINDING_CONSTANTS, std430) r
 #define ROWS3(rows, v) vec3(dot(rows[0], v), dot(rows[1], v), dot(rows[2], v))
 #define ROWS4(rows, v) vec4(dot(rows[0], v), dot(rows[1], v), dot(rows[2], v), dot(rows[3], v))
 
-/// Where a pixel is in clip space: x and y.
+/// Returns the clip-space x and y of a pixel.
 vec2 clipOf(vec2 pixel) {
     return 2.0 * pixel / picture.viewport.xy - 1.0;
 }
 
-// Cosine between the eye's way and a surface below which both of the surface's sides are seen.
+// Below this cosine between the view direction and a surface, both sides of the surface are visible.
 #define SILHOUETTE 0.25
 
-/// Where the outside of a surface is: 1 along its normal, -1 against it. The eye tells; at a silhouette, where it would
-/// tell one sample from the next, in between. `towards`: the cosine between the normal and the way from the eye.
+/// Returns the outside of a surface as the eye sees it: 1 along its normal, -1 against it, in between at a silhouette.
+/// `towards`: cosine between the normal and the view direction.
 float outwards(float towards) {
     return clamp(-towards / SILHOUETTE, -1.0, 1.0);
 }
 
-/// How much of a light, by a power of the cosine between the normal and the way to it, arrives on the outside.
+/// Returns the share of a light that arrives on the outside: a power of the cosine between the normal and its
+/// direction.
 float bothSides(float towards, float cosine, float power) {
     const float along = 0.5 + 0.5 * outwards(towards);
     return along * pow(max(cosine, 0.0), power) + (1.0 - along) * pow(max(-cosine, 0.0), power);
 }
 
-/// Blinn-Phong on both sides of a surface, by the light at the eye and the one at its side. `colour` is times its
-/// opacity, as the result is; `away` leads from the eye.
+/// Blinn-Phong on both sides of a surface, by the light at the eye and the one at its side. `colour` and the result are
+/// premultiplied by opacity; `away` points away from the eye.
 vec3 lit(vec4 colour, vec3 normal, vec3 away) {
     const float towards = dot(normal, away);
     const float facing = abs(towards);

@@ -3,10 +3,10 @@
 #ifndef VOXTACT_RENDER_LIGHT_GLSL
 #define VOXTACT_RENDER_LIGHT_GLSL
 
-// A constant and not a switch: llvmpipe goes through both sides of a branch, at each step of each ray.
+// A constant: llvmpipe executes both sides of a branch, at each step of each ray.
 layout(constant_id = PICTURE_CONSTANT_OCCLUSION) const bool kOcclusion = true;
 
-// Looks along the normal, to `reach`.
+// Samples along the normal, up to `reach`.
 #define OCCLUSION_LOOKS 4
 
 float scalarAt(vec3 coordinate) {
@@ -24,7 +24,7 @@ vec3 gradientAt(vec3 coordinate) {
            slope.z * picture.texture_from_world[2].xyz;
 }
 
-/// Whether a point of texture space is in the part of the volume that is seen.
+/// Returns true if a point of texture space is in the visible part of the volume.
 bool isThere(vec3 coordinate) {
     bool there = all(greaterThanEqual(coordinate, vec3(0.0))) && all(lessThanEqual(coordinate, vec3(1.0)));
     for (int i = 0; i < picture.planeCount; ++i) {
@@ -33,8 +33,7 @@ bool isThere(vec3 coordinate) {
     return there;
 }
 
-/// How open it is over a surface: 1 where nothing is within reach along a way outside. The mean of what comes through from
-/// each of the looks.
+/// Returns the openness above a surface: the mean transmission of the samples; 1 if nothing is within reach.
 float opennessAt(vec3 coordinate, vec3 outside) {
     const float part = picture.reach / float(OCCLUSION_LOOKS);
     const vec3 way = part * ROWS3(picture.texture_from_world, vec4(outside, 0.0));
@@ -52,7 +51,7 @@ float opennessAt(vec3 coordinate, vec3 outside) {
     return sum / float(OCCLUSION_LOOKS);
 }
 
-/// By the gradient.
+/// Lights a sample by its gradient.
 vec3 shadedInside(vec4 segment, vec3 coordinate, vec3 away) {
     const vec3 gradient = gradientAt(coordinate);
     const float size = length(gradient);
@@ -65,19 +64,19 @@ vec3 shadedInside(vec4 segment, vec3 coordinate, vec3 away) {
     if (!kOcclusion) {
         return light;
     }
-    // Half-way to the eye: within matter a gradient may point anywhere.
+    // Halfway to the eye: inside matter a gradient may point anywhere.
     const vec3 outside = normalize(outwards(dot(normal, away)) * normal - away);
     const float openness = opennessAt(coordinate, outside);
     return light * (1.0 - picture.occlusion * (1.0 - openness));
 }
 
-/// The face of a cut: matt, because what is specular would whiten all of it, and in all the light, from the eye, because
-/// what is to be seen are its colours.
+/// The face of a cut: matt, because specular light would whiten all of it, and fully lit from the eye to show its
+/// colours.
 vec3 shadedFace(vec4 segment, vec3 away, vec3 normal) {
     return segment.rgb * min(picture.light.x + (picture.light.y + picture.side.w) * abs(dot(normal, away)), 1.0);
 }
 
-/// `face`: how much of it is seen as the face through which its ray came into the volume; gradients there are noise.
+/// `face`: weight of the face through which the ray enters the volume, where gradients are noise.
 vec3 shaded(vec4 segment, vec3 coordinate, vec3 away, vec3 faceNormal, float face) {
     const vec3 onFace = face > 0.0 ? shadedFace(segment, away, faceNormal) : vec3(0.0);
     return face < 1.0 ? mix(shadedInside(segment, coordinate, away), onFace, face) : onFace;

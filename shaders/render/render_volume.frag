@@ -20,20 +20,20 @@ layout(location = 0) out vec4 colour;
 #include "render_light.glsl"
 
 #define ENOUGH 0.99
-// More than the rounding of a filtered scalar, in entries.
+// Upper bound of the rounding of a filtered scalar, in entries.
 #define ENTRY_MARGIN 0.0625
 
 struct Ray {
     vec3 origin;    // texture space, on the near plane
-    vec3 direction; // texture space, of a millimetre
-    vec3 world;     // the same way in world space; unit length
+    vec3 direction; // texture space, per millimetre
+    vec3 world;     // direction in world space; unit length
     float end;      // the far plane
 };
 
 Ray rayOf(vec2 pixel) {
     const vec4 near = ROWS4(picture.texture_from_clip, vec4(clipOf(pixel), 0.0, 1.0));
     const vec4 far = ROWS4(picture.texture_from_clip, vec4(clipOf(pixel), 1.0, 1.0));
-    // The way between the two without their divisions: the far plane may be at infinity.
+    // The direction between both points without division by w: the far plane may be at infinity.
     const vec3 way = far.xyz * near.w - near.xyz * far.w;
     const vec3 world = ROWS3(picture.world_from_texture, vec4(way, 0.0));
     const float size = length(world);
@@ -41,7 +41,7 @@ Ray rayOf(vec2 pixel) {
     return Ray(near.xyz / near.w, way / size, world / size, both > 0.0 ? size / both : PICTURE_NOTHING);
 }
 
-/// The part of a ray in [lo, hi] of the origin's space: x to y, nothing where x > y.
+/// Returns the part of a ray in [lo, hi] of the origin's space: x to y, empty if x > y.
 vec2 insideBox(vec3 origin, vec3 direction, vec3 lo, vec3 hi) {
     // Never zero: 0 / 0 would be on a face.
     const vec3 slope = mix(direction, vec3(1e-20), lessThan(abs(direction), vec3(1e-20)));
@@ -52,8 +52,8 @@ vec2 insideBox(vec3 origin, vec3 direction, vec3 lo, vec3 hi) {
     return vec2(max(max(first.x, first.y), first.z), min(min(last.x, last.y), last.z));
 }
 
-/// Where a ray comes in and goes out: x and y, mm. `normal`, of unit length, is of the face through which it comes in:
-/// of the volume's border, of a clipping plane or, of a ray that begins inside, the near plane, which faces it.
+/// Returns the entry and exit of a ray: x and y, mm. `normal`, of unit length, is that of the entry face: the volume's
+/// border, a clipping plane or, for a ray that begins inside, the near plane.
 vec2 seenPart(Ray ray, out vec3 normal) {
     normal = ray.world;
     float from = 0.0;
@@ -84,14 +84,14 @@ vec2 seenPart(Ray ray, out vec3 normal) {
     return vec2(from, to);
 }
 
-/// The largest opacity of the entries from `first` to `last`, which are in the table.
+/// Returns the maximum opacity of the table entries from `first` to `last`.
 float largestOpacity(int first, int last) {
     const int level = findMSB(last - first + 1);
     const int row = level * picture.tableSize;
     return max(extremes[row + first], extremes[row + last + 1 - (1 << level)]);
 }
 
-/// Whether no scalar that samples in a brick can have is seen.
+/// Returns true if all samples in a brick are transparent.
 bool isEmpty(vec4 brick) {
     if (!(brick.x <= brick.y)) {
         return false; // of NaN only
@@ -103,7 +103,7 @@ bool isEmpty(vec4 brick) {
     return largestOpacity(int(floor(from)), int(ceil(to))) <= 0.0;
 }
 
-/// The brick at a coordinate: where along the ray it ends, and in y whether it is empty (1).
+/// Returns the exit distance of the brick at a coordinate (x), and 1 if the brick is empty (y).
 vec2 brickAt(Ray ray, float at) {
     const ivec3 size = textureSize(volume, 0);
     const vec3 voxels = vec3(size);
@@ -125,13 +125,13 @@ float hashOf(uvec2 pixel) {
     return (float(state >> 8u) + 1.0) / 16777216.0;
 }
 
-/// How much a face seems to cut through matter, 0 to 1: a layer as deep as a face is shaded, of what has an opacity over
-/// a step, must hide half of what is behind it. Less and less where it thins out, or the rim of a face would be a line.
+/// Returns the weight of a cut face, 0 to 1: 1 if a layer of the face's depth with this opacity per step hides half of
+/// the background. It falls off gradually, so the rim of a face is no line.
 float cutThrough(float opacity) {
     return min(2.0 * (1.0 - pow(1.0 - min(opacity, 0.999), picture.faceDepth / picture.step)), 1.0);
 }
 
-/// Colour times opacity, and opacity, of the ray from one distance to another. It came in through a face.
+/// Returns premultiplied colour and opacity of the ray between two distances. The ray enters through a face.
 vec4 march(Ray ray, float from, float to, float firstStep, vec3 faceNormal) {
     const float step = picture.step;
     vec4 sum = vec4(0.0);
@@ -140,13 +140,13 @@ vec4 march(Ray ray, float from, float to, float firstStep, vec3 faceNormal) {
     float front = scalarAt(ray.origin + at * ray.direction);
     float cut = (picture.switches & PICTURE_FACES) != 0u ? 1.0 : 0.0;
     float brickEnd = picture.bricksX > 0 ? from : PICTURE_NOTHING;
-    // The bound is for llvmpipe (seen in Mesa 22.3): without, it goes on to a limit of its own, 65535 rounds, in some
-    // blocks of pixels that are long done.
+    // The bound is for llvmpipe (seen in Mesa 22.3), which otherwise runs some finished blocks of pixels up to its own
+    // limit of 65535 rounds.
     const int most = int((to - from) / step) + 2;
     for (int i = 0; i < most && at < to && sum.a < ENOUGH; ++i) {
         if (at >= brickEnd) {
             const vec2 brick = brickAt(ray, at);
-            // To the last sample that is still in an empty brick: the step out of it is an ordinary one.
+            // Skips to the last sample in the empty brick; the step out of it is an ordinary one.
             const float beyond = floor((min(brick.x, to) - next) / step);
             if (brick.y > 0.0 && beyond >= 0.0) {
                 at = next + beyond * step;
@@ -188,7 +188,7 @@ vec4 march(Ray ray, float from, float to, float firstStep, vec3 faceNormal) {
 void main() {
     const ivec2 pixel = ivec2(gl_FragCoord.xy);
     const float mesh = texelFetch(meshDistance, pixel, 0).r;
-    const vec4 behind = texelFetch(meshColour, pixel, 0); // and how much of it is seen through the volume
+    const vec4 behind = texelFetch(meshColour, pixel, 0); // and its visibility through the volume
     const Ray ray = rayOf(gl_FragCoord.xy);
     vec3 faceNormal;
     const vec2 part = seenPart(ray, faceNormal);

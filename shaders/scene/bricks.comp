@@ -21,12 +21,12 @@ layout(push_constant) uniform Item { BrickConstants constants; };
 
 shared vec4 ranges[VOXTACT_BRICK_GROUP];
 
-/// The union of two pairs of ranges.
+/// Returns the union of two pairs of ranges.
 vec4 joined(vec4 a, vec4 b) {
     return vec4(min(a.x, b.x), max(a.y, b.y), min(a.z, b.z), max(a.w, b.w));
 }
 
-/// The ranges of every 64th voxel of the wide box, from this lane's on.
+/// Returns the ranges of every 64th voxel of the wide box, from this lane's voxel on.
 vec4 rangesOfLane(ivec3 brick) {
     const ivec3 corner = brick << VOXTACT_BRICK_SHIFT;
     const ivec3 lastVoxel = textureSize(volume, 0) - 1;

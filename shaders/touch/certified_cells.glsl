@@ -5,7 +5,7 @@
 #define VOXTACT_CERTIFIED_CELLS_GLSL
 
 layout(constant_id = VOXTACT_CONSTANT_OUTPUTS) const uint kOutputs = 0;
-/// With outputs every fragment that is certain has a witness, which only a decision finds.
+/// With outputs, every certain fragment needs a witness point, which only a decision finds.
 const bool kWitnesses = kOutputs != 0;
 
 shared uint certainOfGroup; // fragments of one pair
@@ -13,8 +13,8 @@ shared uint listed;
 shared uint list[VOXTACT_CELL_LIST];
 shared uint firstOfList; // in the queue
 
-/// Reserves what is listed; asked by all lanes together, behind a barrier. False where the queue has no room for all of
-/// it: nothing is then to be put there.
+/// Reserves room for the listed cells. All lanes call it together, after a barrier. Returns false if the queue has no
+/// room for all; then add none.
 bool reserveList() {
     if (gl_LocalInvocationIndex == 0 && listed > 0) {
         firstOfList =

@@ -13,7 +13,7 @@ layout(local_size_x = VOXTACT_COMPUTE_GROUP) in;
 layout(constant_id = VOXTACT_CONSTANT_OUTPUTS) const uint kOutputsWanted = 0;
 #include "certified_scene.glsl"
 
-/// A box of more bricks is kept without a look: its triangles are examined anyway.
+/// Larger boxes are kept untested: later passes test their triangles.
 const int kMostBricksOfABox = 512;
 
 #ifdef RUNS
@@ -59,7 +59,7 @@ CertifiedBox boxOf(uint number) {
 #endif
 }
 
-/// Whether a box of cells has a brick that may have an opaque point.
+/// Returns true if a box of cells has a brick that may contain an opaque point.
 bool mayTouch(CellBox cells) {
     if (isEmpty(cells)) {
         return false;
@@ -76,7 +76,7 @@ bool mayTouch(CellBox cells) {
     return found;
 }
 
-/// Whether the first vertex of a node is opaque, and so proves a touch; `delta` is no less than that of the node's
+/// Returns true if the first vertex of a node is opaque, which proves a touch; `delta` is an upper bound for the node's
 /// triangles.
 bool vertexProves(Node node, float delta) {
     const vec3 position = positionOf(constants.mesh, 3 * triangleAt(node.number * kNodeTriangles));
@@ -99,7 +99,7 @@ bool vertexProves(Node node, float delta) {
     return certifiedVertexProves(opacities(), known, at, cell.x, cell.y, cell.z, witness);
 }
 
-const bool kVertexSays = kOutputsWanted == 0; // outputs want to know more than that
+const bool kVertexSays = kOutputsWanted == 0; // outputs need more than a touch
 
 void main() {
     if (gl_LocalInvocationIndex == 0) {

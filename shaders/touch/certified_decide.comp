@@ -13,7 +13,7 @@
 layout(local_size_x = VOXTACT_COMPUTE_GROUP) in;
 #include "certified_scene.glsl"
 
-shared uint pairOfGroup; // of the first lane, and so of most
+shared uint pairOfGroup; // pair of the first lane, and so of most lanes
 shared uint survivors;   // of that pair
 shared uint open;
 shared uint firstOpen;
@@ -24,7 +24,7 @@ int decide(uvec4 entry) {
     const CertifiedTriangle triangle = triangleOf(at, boundsOf(at).delta);
     const CertifiedCorners corners = cornersOf(cell, brickAt((cell + 1) >> VOXTACT_BRICK_SHIFT));
     const CertifiedCell known = certifiedCell(constants.item, corners, cell.x, cell.y, cell.z, triangle.delta);
-    // The pass that found the cell has made the tests of certifiedBegin().
+    // The pass that listed the cell did the tests of certifiedBegin().
     const int count = certifiedClip(triangle, known, voxelPoint(float(cell.x), float(cell.y), float(cell.z)));
     CertifiedWitness witness;
     const int verdict = certifiedSettle(opacities(), constants.item.resolution, known, count, witness);

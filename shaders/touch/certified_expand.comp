@@ -14,7 +14,7 @@ layout(local_size_x = VOXTACT_COMPUTE_GROUP) in;
 #define VOXTACT_CELL_LIST (VOXTACT_COMPUTE_GROUP * VOXTACT_CELLS_OF_A_LANE)
 #include "certified_cells.glsl"
 
-/// Of the triangle of a lane: for the lane that puts its cells into the queue.
+/// Data of a lane's triangle, for the lane that queues its cells.
 struct LaneCells {
     uint pair;
     uint triangle;
@@ -26,11 +26,11 @@ shared uint pairOfGroup; // of the first lane, and so of most
 shared uint parts;       // of large triangles
 shared uint firstPart;
 shared uint groupsIfLeft; // of certified_finish, for all large triangles
-shared uint refused;      // not 0: of the pairs, not all is examined
+shared uint refused;      // not 0: some pairs are not examined completely
 
-/// Work groups of certified_large that share a triangle: one for every 32 bricks that it passes through, up to a point,
-/// and none that has no block of bricks. It passes through some for each side of one that its shadows cover, and for
-/// each that its edges cross.
+/// Returns the number of work groups of certified_large for a triangle: one per 32 bricks that it may cross, up to a
+/// limit, each with at least one block of bricks. The estimate counts the brick sides that its projections cover and
+/// its edges cross.
 uint partsOf(CertifiedTriangle triangle, CellBox cells) {
     const float kMostParts = 64.0;
     const float kBricksOfPart = 32.0;
@@ -59,7 +59,8 @@ uint bricksThatMayTouch(CertifiedTriangle triangle, CellBox box) {
     return bits;
 }
 
-/// Lists the cells of the lane's small triangle that need a decision. Returns its fragments that are certain without.
+/// Lists the cells of the lane's small triangle that need a decision. Returns the number of fragments that are certain
+/// without one.
 uint listCells(CertifiedTriangle triangle, CellBox cells) {
     uint certain = 0;
     const CellBox box = bricksOf(cells);
@@ -89,7 +90,7 @@ void putLarge(TriangleLane own, uint slot, uint count) {
     for (uint part = 0; part < count; ++part) {
         const uint entry = firstPart + slot + part;
         if (entry < room) {
-            // Where not all of the group's have room, none is there.
+            // If the queue has no room for all cells of the group, it gets none.
             const uint pair = firstPart + parts <= room ? own.pair : kNoPair;
             quads[quadOf(LARGE_WORD, entry)] = uvec4(pair, own.number, part, count);
         }
@@ -121,7 +122,8 @@ void main() {
         const bool wanted = !isDone(own.pair);
         if (isEmpty(cells)) {
         } else if (isLarge(cells) || !bounds.usable) {
-            // Those of pairs that are done, too: certified_finish must find the same, and more will be done by then.
+            // Includes pairs that are done: certified_finish must find the same triangles, and more pairs will be done
+            // by then.
             atomicAdd(groupsIfLeft, groupsOfTriangle(transforms[own.pair], bounds, cells));
             if (wanted) {
                 partsOfLane = bounds.usable ? partsOf(triangleOf(at, bounds.delta), cells) : 1;

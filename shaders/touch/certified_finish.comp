@@ -16,13 +16,13 @@ layout(local_size_x = VOXTACT_COMPUTE_GROUP) in;
 #include "certified_scene.glsl"
 #include "certified_shares.glsl"
 
-/// A triangle, as the first passes and as this one places it.
+/// A triangle, placed as by the first passes, and precisely.
 struct Placed {
     uint pair;
     uint number;
     CertifiedTriangle rounded;
-    bool usable; // `rounded` is
-    bool again;  // what is decided with it was left undecided
+    bool usable; // `rounded` is usable
+    bool again;  // its cell was left undecided
     PreciseTriangle precisely;
 };
 
@@ -31,7 +31,7 @@ bool undecided = false;
 
 #include "exact/exact_language.h"
 
-/// The attempts at a cell: as the first pass; precisely; with the range of its own voxels; the part of it that is
+/// Attempts at a cell: like the first pass; precisely; with the range of its own voxels; only the part that is
 /// certainly in the domain.
 void decideCell(Placed triangle, ivec3 cell, vec4 range) {
     CertifiedCorners corners = cornersOf(cell, range);
@@ -62,7 +62,7 @@ void decideCell(Placed triangle, ivec3 cell, vec4 range) {
         }
         const float resolution = attempt == 0 ? constants.item.resolution : certifiedFinest(constants.item);
         verdict = certifiedSettle(opacities(), resolution, known, count, witness);
-        // What is certainly in the domain has no opaque point, but there is more.
+        // The part that is certainly in the domain has no opaque point; the rest is open.
         verdict = attempt == 3 && verdict == CERTIFIED_NONE ? CERTIFIED_UNDECIDED : verdict;
     }
     if (verdict == CERTIFIED_UNDECIDED) {
@@ -110,7 +110,7 @@ void decideShare(Share given) {
     const CellBox box = bricksOf(cells);
     const bool single = cells.lo == cells.hi;
     const int count = volumeOf(box);
-    const bool byOthers = share.large && gl_LocalInvocationIndex > 0; // all lanes look at the same bricks
+    const bool byOthers = share.large && gl_LocalInvocationIndex > 0; // all lanes test the same bricks
     uint bricksSeen = 0;
     uint cellsSeen = 0;
     int i = share.firstBrick;

@@ -22,8 +22,8 @@ bool misses(CertifiedTriangle triangle, vec3 centre, float radius) {
     return certifiedPlaneMisses(triangle, at, radius) || certifiedEdgesMiss(triangle, at, radius);
 }
 
-/// Lists those of a brick's cells that need a decision, and puts them into the queue; counts those that are certain
-/// without. False, and nothing is counted, where it has no room.
+/// Queues the cells of a brick that need a decision, and counts cells that are certain without one. Returns false, and
+/// counts nothing, if the queue has no room.
 bool putBrick(uvec4 entry, CertifiedTriangle triangle, CellBox cells, ivec3 brick) {
     const uint lane = gl_LocalInvocationIndex;
     const CellBox inside = within(cells, brick);
@@ -57,27 +57,28 @@ bool putBrick(uvec4 entry, CertifiedTriangle triangle, CellBox cells, ivec3 bric
     return fits;
 }
 
-/// The work groups that certified_finish needs for what a part has from a brick on.
+/// Returns the number of work groups that certified_finish needs for a part from a brick on.
 uint groupsFrom(uvec4 entry, uint brick, uint count) {
     const uint blocks = ((count - 1) / VOXTACT_COMPUTE_GROUP - brick / VOXTACT_COMPUTE_GROUP) / entry.w + 1;
     return groupsOfBricks(min(blocks * VOXTACT_COMPUTE_GROUP - brick % VOXTACT_COMPUTE_GROUP, count - brick));
 }
 
-/// Leaves the entry to certified_finish, from a brick on.
+/// Passes the entry to certified_finish, from a brick on.
 void leaveFrom(uvec4 entry, uint brick, uint groups) {
     if (!leave(VOXTACT_LEFT_LARGE, gl_WorkGroupID.x, brick, groups)) {
         atomicOr(results[entry.x].how, VOXTACT_HOW_UNDECIDED_BIT);
     }
 }
 
-/// Whether the triangle certainly passes through none of a box of bricks.
+/// Returns true if the triangle certainly misses a box of bricks.
 bool missesBricks(CertifiedTriangle triangle, CellBox bricks) {
     const VoxelPoint at = middleOf(bricks);
     const VoxelPoint radius = radiusOf(bricks);
     return certifiedPlaneMissesBox(triangle, at, radius) || certifiedEdgesMissBox(triangle, at, radius);
 }
 
-/// Of a block of bricks, those that may touch. False where one has no room: it is left, with what is behind it.
+/// Processes the bricks of a block that may touch. Returns false if the queue has no room for one: this brick and later
+/// ones go to certified_finish.
 bool putBlock(uvec4 entry, CertifiedTriangle triangle, CellBox cells, int block) {
     const uint lane = gl_LocalInvocationIndex;
     const CellBox box = bricksOf(cells);
@@ -138,7 +139,7 @@ void main() {
     const int step = int(entry.w) * VOXTACT_COMPUTE_GROUP; // from one of the part's blocks to the next
     for (int first = int(entry.z) * VOXTACT_COMPUTE_GROUP; fits && first < count;
          first += VOXTACT_COMPUTE_GROUP * step) {
-        // A look at all bricks of a block, first, and of as many blocks as there are lanes.
+        // Tests all bricks of a block first, for one block per lane.
         if (lane < VOXTACT_COMPUTE_GROUP / 32) {
             blocksKept[lane] = 0;
         }
@@ -163,7 +164,7 @@ void main() {
         countWork(VOXTACT_WORK_CERTAIN, certainOfGroup);
         addSurvivors(entry.x, certainOfGroup);
     }
-    if (isCut()) { // lanes that run together are: others are not
+    if (isCut()) { // only lanes that run together agree
         atomicOr(results[entry.x].how, VOXTACT_HOW_UNDECIDED_BIT);
     }
 }

@@ -5,7 +5,7 @@
 #ifndef VOXTACT_CERTIFIED_QUEUES_GLSL
 #define VOXTACT_CERTIFIED_QUEUES_GLSL
 
-// Behind the transforms, in the same buffer.
+// After the transforms, in the same buffer.
 layout(set = VOXTACT_SET_PAIRS, binding = VOXTACT_BINDING_TRANSFORMS, std430) buffer Queues { uint queues[]; };
 layout(set = VOXTACT_SET_PAIRS, binding = VOXTACT_BINDING_TRANSFORMS, std430) buffer Quads { uvec4 quads[]; };
 
@@ -18,15 +18,15 @@ uint queueCount(uint queue) {
     return queues[constants.headerWord + 4 * queue + 3];
 }
 
-/// Adds to a VOXTACT_WORK_* of the round, where that is asked for.
+/// Adds to a VOXTACT_WORK_* counter of the round, if counters are enabled.
 void countWork(uint word, uint work) {
     if (kCounters && work > 0) {
         atomicAdd(queues[constants.headerWord + word], work);
     }
 }
 
-/// Room for `entries` of a queue, and work groups of `lanes` entries each for the pass that empties it, as far as the
-/// queue has room. Returns the number of the first; those from `room` on are not there.
+/// Reserves `entries` of a queue as far as it has room, and work groups of `lanes` entries for the pass that empties
+/// it. Returns the number of the first entry; entries from `room` on do not exist.
 uint reserve(uint queue, uint entries, uint room, uint lanes) {
     const uint word = constants.headerWord + 4 * queue;
     const uint before = atomicAdd(queues[word + 3], entries);
@@ -39,7 +39,7 @@ uint reserve(uint queue, uint entries, uint room, uint lanes) {
     return before;
 }
 
-/// Number of the element of `quads` where entry `entry` of a queue of four words begins.
+/// Returns the index in `quads` of entry `entry` of a queue of four words.
 uint quadOf(uint word, uint entry) {
     return (constants.queueWord + word) / 4 + entry;
 }
@@ -56,9 +56,8 @@ ivec3 unpackCell(uvec2 words) {
 /// Instead of a pair: the entry is a gap.
 const uint kNoPair = 0xffffffffu;
 
-/// What is left of a triangle is dealt to work groups of certified_finish by so many bricks; of small triangles, each
-/// of these work groups has one of so many shares of the cells. No lane then has more than some tens of cells, however
-/// large the triangles are.
+/// Bricks of a large triangle per work group of certified_finish, and shares of the cells of small triangles. They
+/// limit a lane to some tens of cells, however large the triangles are.
 const uint kBricksOfGroup = 8;
 const uint kSharesOfSmall = 3;
 
@@ -66,14 +65,14 @@ uint groupsOfBricks(uint bricks) {
     return (bricks + kBricksOfGroup - 1) / kBricksOfGroup;
 }
 
-/// Looks at cells that a work group of certified_finish has, at most.
+/// Maximum cell tests of a work group of certified_finish.
 const uint kLooksOfGroup = kBricksOfGroup << (3 * VOXTACT_BRICK_SHIFT);
 
-/// Work groups of certified_finish in a round, at most. What is beyond is refused.
+/// Maximum work groups of certified_finish in a round; more are refused.
 uint mostGroupsLeft() {
-    // The host bounds looks, and boxes of large triangles have more bricks than these pass through: some dozens of
-    // times as many. It cannot bound those of triangles that it does not know, nor cut what one cluster has: that may be
-    // left once as a whole, and in parts as well.
+    // The host bounds the number of tests; boxes of large triangles have dozens of times as many bricks as the
+    // triangles cross. The host cannot bound triangles that it does not know, nor split a cluster, which may overflow
+    // as a whole and in parts.
     const uint kMost = VOXTACT_LEFT_LAYER * VOXTACT_LEFT_MOST_LAYERS;
     const ivec3 size = brickCounts();
     const uint whole = groupsOfBricks(uint(size.x * size.y * size.z)) + kBricksOfGroup;
@@ -86,18 +85,18 @@ uint leftBlockWord(uint block) {
     return constants.queueWord + VOXTACT_WORD_LEFT_BLOCKS(constants.queueRoom) + block;
 }
 
-/// A share, of `lanes`, of making the blocks of what is left empty: for the first pass of a round.
+/// Clears one lane's share, of `lanes`, of the overflow blocks: for the first pass of a round.
 void emptyLeftBlocks(uint lane, uint lanes) {
     for (uint block = lane; block * VOXTACT_LEFT_BLOCK < LEFT_ROOM; block += lanes) {
         queues[leftBlockWord(block)] = 0;
     }
 }
 
-/// An entry of certified_finish, for which it needs `groups` work groups. False: it is refused, and what it has of its
-/// pairs is not known.
+/// Adds an entry of certified_finish that needs `groups` work groups. Returns false if it is refused: its pairs are
+/// then undecided.
 bool leave(uint what, uint number, uint brick, uint groups) {
     const uint word = constants.headerWord + 4 * VOXTACT_QUEUE_LEFT;
-    // Never more than the most, not even for a moment: the sum of all that is refused may not fit into a word.
+    // Never exceeds the maximum, not even for a moment: the sum of all refused entries may overflow a word.
     uint first = 0;
     uint seen = queues[constants.headerWord + VOXTACT_GROUPS_LEFT];
     do {

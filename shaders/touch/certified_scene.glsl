@@ -20,7 +20,7 @@ layout(set = VOXTACT_SET_MESH, binding = VOXTACT_BINDING_VERTICES, std430) reado
 layout(set = VOXTACT_SET_MESH, binding = VOXTACT_BINDING_INDICES, std430) readonly buffer Indices { uint indices[]; };
 layout(push_constant) uniform Item { CertifiedConstants constants; };
 
-// One addition a work group: a carry that is not needed costs nothing.
+// One addition per work group: an unneeded carry costs nothing.
 const bool kCarry = true;
 const bool kYesNo = kStopAtFirst;
 
@@ -39,7 +39,7 @@ ivec3 brickCounts() {
 #include "count/outputs.glsl"
 #endif
 
-/// A triangle of no more cells is one lane's, one of more is shared by work groups.
+/// A lane handles a triangle of at most this many cells; work groups share a larger one.
 #define VOXTACT_CELLS_OF_A_LANE 27
 const int kMostCellsOfALane = VOXTACT_CELLS_OF_A_LANE;
 const int kBrickSide = 1 << VOXTACT_BRICK_SHIFT;
@@ -81,7 +81,7 @@ ivec3 placeIn(CellBox box, int number) {
     return box.lo + ivec3(number % size.x, row % size.y, row / size.y);
 }
 
-/// The number of a brick in the volume.
+/// Returns the number of a brick in the volume.
 int numberOf(ivec3 brick) {
     const ivec3 count = brickCounts();
     return brick.x + count.x * (brick.y + count.y * brick.z);
@@ -102,7 +102,7 @@ float storedAt(ivec3 voxel) {
 
 #include "exact/exact_language.h"
 
-/// Corners of a cell with the range of the voxels around it alone.
+/// Returns the corners of a cell, with the range of only the voxels around it.
 CertifiedCorners cornersAround(CertifiedCorners corners, ivec3 cell) {
     CertifiedCorners around = corners;
     around.wideLo = corners.wideHi;
@@ -158,7 +158,7 @@ CertifiedBounds boundsOf(TriangleVertices at) {
     return certifiedBounds(constants.item, at.voxel[0], at.voxel[1], at.voxel[2]);
 }
 
-/// Also where the number of cells overflows.
+/// Also if the number of cells overflows.
 bool isLarge(CellBox cells) {
     const ivec3 sides = cells.hi - cells.lo + 1;
     return any(greaterThan(sides, ivec3(kMostCellsOfALane))) || volumeOf(cells) > kMostCellsOfALane;
@@ -168,7 +168,7 @@ vec3 brickCentre(ivec3 brick) {
     return vec3((brick << VOXTACT_BRICK_SHIFT) - 1) + float(kBrickSide / 2);
 }
 
-/// A box that has all bricks of a box from one number to another.
+/// Returns a box that contains all bricks of a box between two numbers.
 CellBox bricksFrom(CellBox box, int first, int last) {
     CellBox found = CellBox(placeIn(box, first), placeIn(box, last));
     if (any(notEqual(found.lo.yz, found.hi.yz))) {
@@ -182,7 +182,7 @@ CellBox bricksFrom(CellBox box, int first, int last) {
     return found;
 }
 
-/// Of a box of bricks, in voxel space: its middle, and half its sides.
+/// Returns the middle and half the sides of a box of bricks, in voxel space.
 VoxelPoint middleOf(CellBox bricks) {
     const vec3 middle = 0.5 * (brickCentre(bricks.lo) + brickCentre(bricks.hi));
     return voxelPoint(middle.x, middle.y, middle.z);
@@ -198,20 +198,20 @@ CellBox within(CellBox cells, ivec3 brick) {
     return CellBox(max(cells.lo, corner), min(cells.hi, corner + kBrickSide - 1));
 }
 
-/// Whether a triangle is so far off that no precision will place it, most likely: certified_finish then needs but one
-/// look at a brick that may be opaque.
+/// Returns true if the triangle is probably too far away for any precision: certified_finish then needs only one test
+/// of a brick that may be opaque.
 bool isLost(CertifiedPair transform, CertifiedBounds bounds) {
     return !bounds.usable && !(bounds.delta * transform.reference.w <= CERTIFIED_MOST_DELTA);
 }
 
-/// The work groups of certified_finish for a large triangle that is left.
+/// Returns the number of work groups of certified_finish for an overflowed large triangle.
 uint groupsOfTriangle(CertifiedPair transform, CertifiedBounds bounds, CellBox cells) {
     return isLost(transform, bounds) ? 1 : groupsOfBricks(uint(volumeOf(bricksOf(cells))));
 }
 
-/// Whether loops were left before their end: llvmpipe leaves every loop of an invocation after its first round once all
-/// of them together have had 65,535 rounds (seen in Mesa 22.3). Nothing that was found after that is known. The bound
-/// is 2, which compilers cannot know.
+/// Returns true if loops were cut: after 65,535 rounds of all loops of an invocation together, llvmpipe leaves every
+/// loop after its first round (seen in Mesa 22.3). Later results are then invalid. The bound is 2, which compilers
+/// cannot know.
 bool isCut() {
     uint rounds = 0;
     while (rounds < 2u + (uint(constants.item.points) >> 30)) {
@@ -220,7 +220,7 @@ bool isCut() {
     return rounds < 2u;
 }
 
-/// Where stopAtFirst is wanted, what is found of a pair that has a survivor is of no use.
+/// With stopAtFirst, further results of a pair with a passing fragment are useless.
 bool isDone(uint pair) {
     return kStopAtFirst && results[pair].countLow > 0;
 }
@@ -250,8 +250,8 @@ CertifiedBox boxOfRun(uint number) {
     return boxOfCluster((constants.triangleCount + VOXTACT_CLUSTER_TRIANGLES - 1) / VOXTACT_CLUSTER_TRIANGLES + number);
 }
 
-/// A lane of the passes that have a lane for each triangle: of the work group `group`, four entries of the queue of
-/// runs. Also of pairs that are done.
+/// Returns the triangle of a lane in the passes with a lane per triangle: work group `group` has four entries of the
+/// queue of runs. Includes pairs that are done.
 struct TriangleLane {
     bool some; // false: there is none
     uint pair;
@@ -275,14 +275,14 @@ TriangleLane triangleLane(uint group, uint lane) {
 
 #include "exact/exact_language.h"
 
-/// Whether a cell reaches beyond the voxels' centres: the domain ends in it.
+/// Returns true if a cell extends beyond the voxel centres: the domain ends in it.
 bool isAtBorder(ivec3 cell) {
     const ivec3 last = ivec3(constants.item.sizeX, constants.item.sizeY, constants.item.sizeZ) - 1;
     return any(lessThan(cell, ivec3(0))) || any(greaterThanEqual(cell, last));
 }
 
-/// What the cheaper tests say of a fragment: CERTIFIED_NONE, CERTIFIED_UNDECIDED where it needs a decision, or
-/// CERTIFIED_CERTAIN, which is only said where no witness is wanted.
+/// Returns the verdict of the cheap tests of a fragment: CERTIFIED_NONE, CERTIFIED_UNDECIDED if it needs a decision, or
+/// CERTIFIED_CERTAIN, only if no witness point is needed.
 int fragmentVerdict(CertifiedTriangle triangle, ivec3 cell, vec4 range, bool single, bool witness) {
     const vec3 centre = vec3(cell) + 0.5;
     if (!single && certifiedPlaneMisses(triangle, voxelPoint(centre.x, centre.y, centre.z), 0.5)) {

@@ -3,14 +3,14 @@
 #ifndef VOXTACT_CERTIFIED_SHARES_GLSL
 #define VOXTACT_CERTIFIED_SHARES_GLSL
 
-/// Which of a triangle's bricks and cells a lane decides.
+/// The bricks and cells of a triangle that a lane decides.
 struct Share {
     bool some;
     uint pair;
     uint number; // of the triangle
-    bool single; // one cell, that was left undecided
+    bool single; // a single cell that was left undecided
     ivec3 cell;
-    bool large;     // the triangle must be; else it must not, unless it is a single cell
+    bool large;     // true: the triangle must be large; false: it must be small, except for a single cell
     int firstBrick; // of the triangle's
     int bricks;     // at most
     int stride;     // to the next brick
@@ -23,13 +23,14 @@ shared uint groupsOfLane[VOXTACT_COMPUTE_GROUP];
 
 const Share kNoShare = Share(false, 0, 0, false, ivec3(0), false, 0, 0, 1, 0, 0, 1);
 
-/// Which lane has a work group, of which `groupsOfLane` says how many each has: and which of its own that is.
+/// The lane that owns a work group, and the work group's number among its own. `groupsOfLane`: work groups of each
+/// lane.
 struct LaneTurn {
     uint lane; // VOXTACT_COMPUTE_GROUP: none
     uint turn;
 };
 
-/// The `turn`th of all. Asked by all lanes together, which have written theirs.
+/// Returns the owner of work group `turn`. All lanes call it together, after writing their numbers.
 LaneTurn laneOfTurn(uint turn) {
     barrier();
     LaneTurn found = LaneTurn(0, turn);
@@ -41,8 +42,8 @@ LaneTurn laneOfTurn(uint turn) {
     return found;
 }
 
-/// The bricks of a large triangle, or of its part that has every skip + 1st block of 64, that are the `turn`th of those
-/// from `brick` on which a work group has.
+/// Returns the bricks of work group `turn`, from `brick` on, of a large triangle or of its part with every skip + 1st
+/// block of 64.
 Share shareOfLarge(uint pair, uint triangle, uint brick, uint skip, uint turn) {
     const uint place = brick % VOXTACT_COMPUTE_GROUP + turn * kBricksOfGroup;
     const uint block = brick / VOXTACT_COMPUTE_GROUP + place / VOXTACT_COMPUTE_GROUP * (skip + 1);
@@ -51,7 +52,7 @@ Share shareOfLarge(uint pair, uint triangle, uint brick, uint skip, uint turn) {
                  int(skip * VOXTACT_COMPUTE_GROUP), int(gl_LocalInvocationIndex), VOXTACT_COMPUTE_GROUP);
 }
 
-/// Of the large triangles of a work group of certified_expand: the one that has the `turn`th of their work groups here.
+/// Returns the large triangle of a work group of certified_expand that owns work group `turn`.
 Share shareOfTriangles(uint group, uint turn) {
     const uint lane = gl_LocalInvocationIndex;
     const TriangleLane own = triangleLane(group, lane);
@@ -71,14 +72,14 @@ Share shareOfTriangles(uint group, uint turn) {
     return shareOfLarge(found.pair, found.number, 0, 0, has.turn);
 }
 
-/// An entry of what is left, and which of its work groups this is.
+/// An overflow entry, and the number of this work group in it.
 struct LeftTurn {
     bool some;
     uvec4 entry;
     uint turn;
 };
 
-/// The entry that has the `group`th work group of all. Asked by all lanes together, of what is the same for all.
+/// Returns the entry that owns work group `group`. All lanes call it together with equal arguments.
 LeftTurn entryOfGroup(uint group) {
     const uint lane = gl_LocalInvocationIndex;
     const uint entries = queueCount(VOXTACT_QUEUE_LEFT);
@@ -105,12 +106,12 @@ LeftTurn entryOfGroup(uint group) {
     return LeftTurn(true, quads[quadOf(LEFT_WORD, first + has.lane)], has.turn);
 }
 
-/// The number of this work group among those for what is left.
+/// Returns the number of this work group among those for overflow.
 uint groupLeft() {
     return gl_WorkGroupID.x + gl_NumWorkGroups.x * (gl_WorkGroupID.y + gl_NumWorkGroups.y * gl_WorkGroupID.z);
 }
 
-/// What a work group has of what is left. Asked by all lanes together.
+/// Returns the overflow share of a work group. All lanes call it together.
 Share shareOfGroup(uint group) {
     const uint lane = gl_LocalInvocationIndex;
     const LeftTurn left = entryOfGroup(group);

@@ -13,19 +13,19 @@ layout(local_size_x = VOXTACT_COMPUTE_GROUP) in;
 layout(set = VOXTACT_SET_PAIRS, binding = VOXTACT_BINDING_TRANSFORMS, std430) buffer Queues { uint queues[]; };
 layout(push_constant) uniform Tally { TallyConstants constants; };
 
-/// Of a queue's header: the entries that were put into it.
+/// The number of entries of a queue, in its header.
 #define ENTRIES(queue) (4 * (queue) + 3)
 
-/// In the order of CertifiedCounters: the word of a header that a total is the sum of.
+/// In the order of CertifiedCounters: the header word that each total sums.
 const uint kWordOfTotal[kTotals] =
     uint[](VOXTACT_WORK_CLUSTERS, ENTRIES(VOXTACT_QUEUE_CLUSTERS), ENTRIES(VOXTACT_QUEUE_RUNS),
            ENTRIES(VOXTACT_QUEUE_LARGE), VOXTACT_WORK_BRICKS, VOXTACT_WORK_CELLS, ENTRIES(VOXTACT_QUEUE_CELLS),
            VOXTACT_WORK_CERTAIN, VOXTACT_WORK_DECIDED, 4 * VOXTACT_QUEUE_CELLS, ENTRIES(VOXTACT_QUEUE_OPEN), ENTRIES(VOXTACT_QUEUE_LEFT),
            VOXTACT_WORK_BRICKS_LEFT, VOXTACT_WORK_CELLS_LEFT);
-/// The total that is in work groups, and counts lanes.
+/// The total that counts lanes but is stored in work groups.
 const uint kLanes = 9;
 
-/// The words, one or two that are added, whose largest a peak is.
+/// The header words, one or the sum of two, whose maximum is a peak.
 const uvec2 kWordsOfPeak[kPeaks] =
     uvec2[](uvec2(ENTRIES(VOXTACT_QUEUE_CLUSTERS)), uvec2(ENTRIES(VOXTACT_QUEUE_RUNS)),
             uvec2(ENTRIES(VOXTACT_QUEUE_LARGE)), uvec2(ENTRIES(VOXTACT_QUEUE_CELLS)), uvec2(ENTRIES(VOXTACT_QUEUE_OPEN)),

@@ -6,7 +6,7 @@ layout(push_constant) uniform Placement {
     vec2 scale; // to clip space, from points of the window
     vec2 offset;
     vec2 used; // of the texture, from its upper left corner
-    vec2 most; // what is sampled is not beyond it
+    vec2 most; // limit of sample positions
 };
 
 layout(location = 0) in vec2 position;

@@ -11,13 +11,13 @@
 #include "certified_precise.h"
 
 #define CERTIFIED_NONE 0      // the triangle has no opaque point in the cell
-#define CERTIFIED_CERTAIN 1   // it has one
+#define CERTIFIED_CERTAIN 1   // the triangle has an opaque point in the cell
 #define CERTIFIED_UNDECIDED 2 // neither could be shown
 /// Bisecting the longest edge halves all of them within three steps: enough for a resolution of 2^-12.
 #define CERTIFIED_STACK 48
-/// Voxels: what is placed precisely is divided as far.
+/// Voxels: minimum size of precisely placed pieces.
 #define CERTIFIED_FINE_RESOLUTION 0.0009765625f
-/// Pieces of a fragment that are examined before it is left undecided.
+/// Maximum pieces of a fragment; then it stays undecided.
 #define CERTIFIED_MAX_PIECES 2048
 
 #include "exact_language.h"
@@ -83,7 +83,7 @@ EXACT CertifiedRange certifiedRange(CertifiedCell cell, CertifiedPiece piece) {
     return range;
 }
 
-/// Points of a fragment that are certainly in the domain: those with the least and the greatest entry.
+/// Points of a fragment that are certainly in the domain: those with the minimum and the maximum entry.
 struct CertifiedSamples {
     bool some;
     float lo, hi;
@@ -95,8 +95,8 @@ EXACT bool certifiedSafe(CertifiedCell cell, VoxelPoint at) {
            at.z >= cell.safeLo.z && at.z <= cell.safeHi.z;
 }
 
-/// Whether a point of the cell proves a touch: it is certainly in the domain, and opaque. `entry` is the interpolant
-/// there.
+/// Returns true if a point of the cell proves a touch: it is certainly in the domain, and opaque. `entry` is the
+/// interpolant there.
 EXACT bool certifiedPointProves(OpaqueValues opaque, CertifiedCell cell, VoxelPoint at, float entry) {
     PRECISE float below = entry - cell.margin;
     PRECISE float above = entry + cell.margin;
@@ -118,8 +118,8 @@ EXACT void certifiedSample(CertifiedCell cell, VoxelPoint at, float entry, INOUT
     samples.some = true;
 }
 
-/// Whether the samples prove a touch together: an opaque scalar lies between two of them (the triangle within the
-/// domain is connected and the interpolant continuous).
+/// Returns true if the samples together prove a touch: an opaque scalar lies between two of them (the triangle within
+/// the domain is connected and the interpolant continuous).
 EXACT bool certifiedCrossingProves(OpaqueValues opaque, CertifiedSamples samples, float margin) {
     PRECISE float above = samples.lo + margin;
     PRECISE float below = samples.hi - margin;
@@ -130,11 +130,11 @@ EXACT VoxelPoint certifiedMiddle(VoxelPoint a, VoxelPoint b) {
     return voxelPoint(exactLerp(a.x, b.x, 0.5f), exactLerp(a.y, b.y, 0.5f), exactLerp(a.z, b.z, 0.5f));
 }
 
-/// What proves a touch: a point of the fragment, relative to the cell's corner, and an opaque entry.
+/// Proof of a touch: a point of the fragment, relative to the cell's corner, and an opaque entry.
 struct CertifiedWitness {
     VoxelPoint point;
     float entry;  // certainly opaque
-    bool between; // it is not the interpolant at the point, but that of a place within rounding of the point
+    bool between; // the interpolant at a place within rounding of the point
 };
 
 EXACT CertifiedWitness certifiedWitnessAt(VoxelPoint point, float entry) {
@@ -145,8 +145,8 @@ EXACT CertifiedWitness certifiedWitnessAt(VoxelPoint point, float entry) {
     return witness;
 }
 
-/// The witness of certifiedCrossingProves(): an opaque entry that some point on the way from one sample to
-/// the other has, and the place to which halving that way leads.
+/// Returns the witness of certifiedCrossingProves(): an opaque entry of a point on the segment between the samples, and
+/// the place where bisection of the segment ends.
 EXACT CertifiedWitness certifiedWitnessBetween(OpaqueValues opaque, CertifiedCell cell, CertifiedSamples samples) {
     PRECISE float above = samples.lo + cell.margin;
     CertifiedWitness witness;
@@ -165,7 +165,7 @@ EXACT CertifiedWitness certifiedWitnessBetween(OpaqueValues opaque, CertifiedCel
     return witness;
 }
 
-/// Whether no point of a piece is safe, because all lie beyond the same side of the box that is.
+/// Returns true if no point of a piece is safe: all lie beyond one side of the safe box.
 EXACT bool certifiedAllUnsafe(CertifiedCell cell, CertifiedPiece piece) {
     return certifiedMax(piece.a.x, certifiedMax(piece.b.x, piece.c.x)) < cell.safeLo.x ||
            certifiedMax(piece.a.y, certifiedMax(piece.b.y, piece.c.y)) < cell.safeLo.y ||
@@ -175,32 +175,32 @@ EXACT bool certifiedAllUnsafe(CertifiedCell cell, CertifiedPiece piece) {
            certifiedMin(piece.a.z, certifiedMin(piece.b.z, piece.c.z)) > cell.safeHi.z;
 }
 
-/// Whether dividing a piece cannot make its answer clearer: it is no wider than its error and all of it was sampled, or
-/// none of it can be.
+/// Returns true if halving a piece cannot decide it: its bounds are within their error and it was sampled completely,
+/// or not at all.
 EXACT bool certifiedHopeless(CertifiedCell cell, CertifiedPiece piece, CertifiedRange range) {
     PRECISE float width = range.hi - range.lo;
     const bool sampled = certifiedSafe(cell, piece.a) && certifiedSafe(cell, piece.b) && certifiedSafe(cell, piece.c);
     return (!(width > cell.margin) && sampled) || certifiedAllUnsafe(cell, piece);
 }
 
-/// Whether every point of the cell is certainly opaque, its entries being off by `error` at most.
+/// Returns true if every point of the cell is certainly opaque, for entries with an error of at most `error`.
 EXACT bool certifiedAllOpaque(OpaqueValues opaque, CertifiedCell cell, float error) {
     PRECISE float lo = cell.least - error;
     PRECISE float hi = cell.greatest + error;
     if (!(lo <= hi) || !certainlyAllOpaque(opaque, lo, hi)) {
         return false;
     }
-    // A corner that is not a number is none of the extremes.
+    // A NaN corner is no extreme.
     return certifiedInterpolate(cell, 0.5f, 0.5f, 0.5f) <= hi;
 }
 
-/// Whether every point of the cell is certainly opaque, and every point that a displacement may make of one.
+/// Returns true if every point of the cell is certainly opaque, displacements included.
 EXACT bool certifiedCellAllOpaque(OpaqueValues opaque, CertifiedCell cell) {
     return certifiedAllOpaque(opaque, cell, cell.margin);
 }
 
-/// Whether a point that is in the cell whatever its displacement proves a touch: no value of the cell is beyond those
-/// at its corners. So voxels that have the value of an end are opaque, which no interpolated value is known to be.
+/// Returns true if any point that certainly is in the cell proves a touch: no value of the cell exceeds those at its
+/// corners. So voxels at an end of an opaque interval are opaque, which is unknown of interpolated values.
 EXACT bool certifiedInsideProves(OpaqueValues opaque, CertifiedCell cell, VoxelPoint at) {
     const float lo = cell.displacement;
     PRECISE float hi = 1.0f - cell.displacement;
@@ -208,7 +208,7 @@ EXACT bool certifiedInsideProves(OpaqueValues opaque, CertifiedCell cell, VoxelP
            at.z >= lo && at.z <= hi && certifiedSafe(cell, at);
 }
 
-/// Whether one of a polygon's corners is certainly in the domain: the witness.
+/// Returns true if a corner of a polygon is certainly in the domain: the witness.
 EXACT bool certifiedSafeCorner(CertifiedCell cell HANDED(VoxelPoint, polygon, CERTIFIED_MAX_CORNERS), int count,
                                OUT(VoxelPoint) witness) {
     witness = polygon[0];
@@ -312,14 +312,14 @@ EXACT float certifiedTexture(int cell, float within, int size) {
     return coordinate;
 }
 
-/// What is said of a witness.
+/// Values of a witness.
 struct CertifiedProof {
     VoxelPoint texture; // its texture coordinate
     float stored;       // the stored value there
     float opacity;      // the opacity of that value: not below the threshold
 };
 
-/// Of a witness in the cell (x, y, z).
+/// Returns the values of a witness in the cell (x, y, z).
 EXACT CertifiedProof certifiedProof(OpaqueValues opaque, CertifiedItem item, CertifiedCorners corners,
                                     CertifiedWitness witness, int x, int y, int z) {
     const VoxelPoint at = witness.point;
@@ -341,7 +341,7 @@ EXACT CertifiedProof certifiedProof(OpaqueValues opaque, CertifiedItem item, Cer
     return proof;
 }
 
-/// The range of an axis that a triangle's part in a cell lies in, relative to the cell's corner.
+/// Returns the range along an axis of a triangle's part in a cell, relative to the cell's corner.
 EXACT void certifiedPart(float a, float b, float c, float delta, float cellLo, float cellHi, OUT(float) lo,
                          OUT(float) hi) {
     PRECISE float least = certifiedMin(a, certifiedMin(b, c)) - delta;
@@ -350,8 +350,8 @@ EXACT void certifiedPart(float a, float b, float c, float delta, float cellLo, f
     hi = certifiedClamp(greatest, cellLo, cellHi);
 }
 
-/// The least and the greatest value in a box of the cell, from the cell's corner: the interpolant is linear along each
-/// axis, so its extremes in a box are at the corners.
+/// Returns the minimum and maximum value in a box of the cell, from the cell's corner: the interpolant is linear along
+/// each axis, so its extremes in a box are at the corners.
 EXACT void certifiedBoxRange(CertifiedCell cell, VoxelPoint lo, VoxelPoint hi, OUT(float) least, OUT(float) greatest) {
     least = 0.0f;
     greatest = 0.0f;
@@ -376,7 +376,7 @@ EXACT void certifiedBoxRange(CertifiedCell cell, VoxelPoint lo, VoxelPoint hi, O
     }
 }
 
-/// Whether some point in the box of the triangle's part in the cell may be opaque.
+/// Returns true if a point in the box of the triangle's part in the cell may be opaque.
 EXACT bool certifiedPartMayBeOpaque(OpaqueValues opaque, CertifiedTriangle triangle, CertifiedCell cell,
                                     VoxelPoint origin) {
     const VoxelPoint a = voxelDifference(triangle.corner0, origin);
@@ -393,16 +393,16 @@ EXACT bool certifiedPartMayBeOpaque(OpaqueValues opaque, CertifiedTriangle trian
     return certifiedMayBeOpaque(opaque, least, greatest, cell.pointError);
 }
 
-/// What certifiedBegin() and certifiedBeginAgain() return beside a polygon's corners.
+/// Other results of certifiedBegin() and certifiedBeginAgain() than a number of corners.
 #define CERTIFIED_NO_POLYGON -1
 
-/// Whether a fragment may have an opaque point, before it is cut out of its triangle. Expects a cell that may have one.
+/// Returns true if a fragment may have an opaque point, before clipping. Expects a cell that may have one.
 EXACT bool certifiedBeginMay(OpaqueValues opaque, CertifiedTriangle triangle, CertifiedCell cell, int x, int y, int z) {
     return certifiedCellAllOpaque(opaque, cell) ||
            certifiedPartMayBeOpaque(opaque, triangle, cell, voxelPoint(float(x), float(y), float(z)));
 }
 
-/// The polygon of a fragment. None where it has no opaque point. Expects a cell that may have one.
+/// Returns the polygon of a fragment; none if it has no opaque point. Expects a cell that may have one.
 EXACT int certifiedBegin(OpaqueValues opaque, CertifiedTriangle triangle, CertifiedCell cell, int x, int y,
                          int z HANDED(VoxelPoint, polygon, CERTIFIED_MAX_CORNERS)) {
     if (!certifiedBeginMay(opaque, triangle, cell, x, y, z)) {
@@ -412,7 +412,7 @@ EXACT int certifiedBegin(OpaqueValues opaque, CertifiedTriangle triangle, Certif
 }
 
 /// The same of a precise triangle, in the cell of preciseCell(), or of what is certainly in the domain, `within`, in
-/// that of preciseWithin(). CERTIFIED_NO_POLYGON where nothing can be said.
+/// that of preciseWithin(). Returns CERTIFIED_NO_POLYGON if nothing is known.
 EXACT int certifiedBeginAgain(PreciseTriangle triangle, CertifiedCell cell, int x, int y, int z,
                               bool within HANDED(VoxelPoint, polygon, CERTIFIED_MAX_CORNERS)) {
     if (!preciseKnown(triangle)) {
@@ -424,12 +424,12 @@ EXACT int certifiedBeginAgain(PreciseTriangle triangle, CertifiedCell cell, int 
     return preciseClip(triangle, cell, voxelPoint(float(x), float(y), float(z)), within HAND(polygon));
 }
 
-/// The resolution for precise triangles: what few fragments are left may take longer.
+/// The resolution for precise triangles: the few remaining fragments may take longer.
 EXACT float certifiedFinest(CertifiedItem item) {
     return certifiedMin(item.resolution, CERTIFIED_FINE_RESOLUTION);
 }
 
-/// A fragment's verdict, from its polygon. `witness` is set where it is certain.
+/// Returns a fragment's verdict, from its polygon. Sets `witness` if it is certain.
 EXACT int certifiedSettle(OpaqueValues opaque, float resolution,
                           CertifiedCell cell HANDED(VoxelPoint, polygon, CERTIFIED_MAX_CORNERS), int count,
                           OUT(CertifiedWitness) witness) {
@@ -453,8 +453,8 @@ EXACT int certifiedSettle(OpaqueValues opaque, float resolution,
     return certifiedDecide(opaque, cell, resolution HAND(polygon), count, witness);
 }
 
-/// Whether a vertex alone proves that its triangle touches, in the cell (x, y, z) that it is in. Expects a cell of a
-/// delta that is not less than the triangle's. Of the triangle's own delta certifiedSettle() finds the same.
+/// Returns true if a vertex alone proves that its triangle touches, in its cell (x, y, z). Expects a cell whose delta
+/// is at least the triangle's. certifiedSettle() agrees for the triangle's own delta.
 EXACT bool certifiedVertexProves(OpaqueValues opaque, CertifiedCell cell, VoxelPoint vertex, int x, int y, int z,
                                  OUT(CertifiedWitness) witness) {
     const VoxelPoint at = voxelDifference(vertex, voxelPoint(float(x), float(y), float(z)));

@@ -7,11 +7,11 @@
 #include "certified_triangle.h"
 #include "opaque_values.h"
 
-/// A triangle that six planes clip has at most this many corners.
+/// Maximum corners of a triangle after clipping by six planes.
 #define CERTIFIED_MAX_CORNERS 9
-/// Of the largest entry of some: how far the computation of one may be off, interpolation included.
+/// Error of a computed entry, interpolation included, relative to the largest entry.
 #define CERTIFIED_VALUE_ERROR 1.9073486328125e-6f
-/// More than what devices take for zero.
+/// Larger than any number that devices flush to zero.
 #define CERTIFIED_LEAST_ENTRY 7.7037197775489436e-34f
 
 #include "exact_language.h"
@@ -20,7 +20,7 @@
 namespace voxtact::shader {
 #endif
 
-/// A cell, its corners' entries, and what is certain of them.
+/// A cell, the entries of its corners, and their error bounds.
 struct CertifiedCell {
     float x000, x100, x010, x110, x001, x101, x011, x111; // the entry at corner (x, y, z)
     float least, greatest;                                // of these
@@ -44,12 +44,12 @@ EXACT void certifiedDomain(int cell, int size, float delta, OUT(float) lo, OUT(f
     safeHi = cell == size - 1 ? above : 2.0f;
 }
 
-/// How far the entry of a voxel may be off where it matters: only floats about zero are.
+/// Returns the error of the entry of a voxel: not 0 only for floats near zero.
 EXACT float certifiedCornerError(CertifiedItem item) {
     return item.entryScale < 1.0f && item.storedReference == 0.0f ? CERTIFIED_LEAST_ENTRY : 0.0f;
 }
 
-/// How far entries of stored values between `lo` and `hi` may be off: conversion and interpolation.
+/// Returns the error of entries of stored values between `lo` and `hi`: conversion and interpolation.
 EXACT float certifiedPointError(CertifiedItem item, float lo, float hi) {
     PRECISE float below = lo - item.storedReference;
     PRECISE float above = hi - item.storedReference;
@@ -60,8 +60,8 @@ EXACT float certifiedPointError(CertifiedItem item, float lo, float hi) {
     return error;
 }
 
-/// What a displacement of two `delta` along each axis adds to it. No partial derivative of the interpolant is larger
-/// than the range of the voxels around.
+/// Returns the error that a displacement of two `delta` along each axis adds. The range of the surrounding voxels
+/// bounds every partial derivative of the interpolant.
 EXACT float certifiedMargin(CertifiedItem item, float pointError, float wideLo, float wideHi, float delta) {
     // Scaled before, as the range of floats may be more than a float.
     PRECISE float least = item.entryScale * wideLo;
@@ -73,21 +73,21 @@ EXACT float certifiedMargin(CertifiedItem item, float pointError, float wideLo, 
     return margin;
 }
 
-/// The entry of a stored value.
+/// Returns the entry of a stored value.
 EXACT float certifiedEntry(CertifiedItem item, float stored) {
     PRECISE float from = stored - item.storedReference;
     PRECISE float entry = from * item.entryScale;
     return entry;
 }
 
-/// How far a point is inside of a plane across an axis.
+/// Returns the distance of a point inside a plane across an axis.
 EXACT float certifiedInsideBy(VoxelPoint point, int axis, float limit, bool above) {
     const float place = voxelAlong(point, axis);
     PRECISE float distance = above ? place - limit : limit - place;
     return distance;
 }
 
-/// Where the edge from a corner inside of a plane to one outside meets it, by how far they are inside.
+/// Returns the intersection of a plane and the edge from a corner inside to one outside, by their distances inside.
 EXACT VoxelPoint certifiedCut(VoxelPoint from, VoxelPoint to, float inside, float outside) {
     PRECISE float span = inside - outside;
     PRECISE float weight = inside * exactReciprocal(span);
@@ -105,9 +105,8 @@ VoxelPoint polygon[CERTIFIED_MAX_CORNERS];
 #endif
 
 /// Clips a polygon of `count` corners, which begins at `first` in `halves`, to one side of a plane across an axis.
-/// Returns the corners left. Where some are cut off, what is left is in the other half, and `first` says so: nothing is
-/// copied. The loop that cuts reads each corner once: which one is only known at run time, and devices keep such arrays
-/// in memory.
+/// Returns the number of remaining corners. If some are cut off, the rest is in the other half, at `first`, without a
+/// copy. The loop reads each corner once: its index is only known at run time, and devices keep such arrays in memory.
 EXACT int certifiedClipPlane(INOUT(int) first HANDED(VoxelPoint, halves, 2 * CERTIFIED_MAX_CORNERS), int count,
                              int axis, float limit, bool above) {
     float least = 0.0f;
@@ -161,8 +160,7 @@ EXACT int certifiedClip(CertifiedTriangle triangle, CertifiedCell cell,
     halves[2] = voxelDifference(triangle.corner2, origin);
     int first = 0;
     int count = 3;
-    // Below and above along each axis. One call for all, as everywhere where a function is long: compilers of shaders
-    // copy it wherever it is called.
+    // Below and above along each axis. One call for all, because shader compilers inline every call of a long function.
     for (int side = 0; side < 6; ++side) {
         const int axis = side >> 1;
         const bool above = (side & 1) == 0;
@@ -179,7 +177,7 @@ EXACT int certifiedClip(CertifiedTriangle triangle, CertifiedCell cell,
     return count;
 }
 
-/// The interpolant at a point of the cell, as an entry.
+/// Returns the interpolant at a point of the cell, as an entry.
 EXACT float certifiedInterpolate(CertifiedCell cell, float x, float y, float z) {
     const float v00 = exactLerp(cell.x000, cell.x100, x);
     const float v10 = exactLerp(cell.x010, cell.x110, x);
@@ -218,19 +216,19 @@ EXACT CertifiedCell certifiedCell(CertifiedItem item, CertifiedCorners corners, 
     return cell;
 }
 
-/// Whether some entry from `lo` to `hi` may be opaque, each of which may be off by `error`.
+/// Returns true if an entry from `lo` to `hi` may be opaque, with errors of at most `error`.
 EXACT bool certifiedMayBeOpaque(OpaqueValues opaque, float lo, float hi, float error) {
     PRECISE float below = lo - error;
     PRECISE float above = hi + error;
     return mayBeOpaque(opaque, below, above);
 }
 
-/// Whether some point of the cell may be opaque.
+/// Returns true if a point of the cell may be opaque.
 EXACT bool certifiedCellMayBeOpaque(OpaqueValues opaque, CertifiedCell cell) {
     return certifiedMayBeOpaque(opaque, cell.least, cell.greatest, cell.pointError);
 }
 
-/// Whether some sample of stored values from `lo` to `hi` may be opaque: of a brick.
+/// Returns true if a sample of stored values from `lo` to `hi` may be opaque: of a brick.
 EXACT bool certifiedRangeMayBeOpaque(OpaqueValues opaque, CertifiedItem item, float lo, float hi) {
     return certifiedMayBeOpaque(opaque, certifiedEntry(item, lo), certifiedEntry(item, hi),
                                 certifiedPointError(item, lo, hi));

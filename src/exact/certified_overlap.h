@@ -14,7 +14,7 @@
 /// distance from the cell, which is at most a few voxels more than `reach`; and the delta is at least 2^-18 of that.
 /// Edges are differences of corners, off by 2^-24 of each component, however short they are.
 #define CERTIFIED_OVERLAP_MARGIN 8.0f
-/// Voxels: nothing is said of triangles that may be displaced farther, and so of none that reaches 128 voxels.
+/// Voxels: triangles with a larger displacement stay open, and so all that reach 128 voxels.
 #define CERTIFIED_OVERLAP_DELTA 0.00048828125f
 
 #include "exact_language.h"
@@ -23,13 +23,13 @@
 namespace voxtact::shader {
 #endif
 
-/// Whether something is said of a triangle.
+/// Returns true if the test applies to a triangle.
 EXACT bool certifiedOverlapMayBeAsked(CertifiedTriangle triangle) {
     return triangle.delta <= CERTIFIED_OVERLAP_DELTA;
 }
 
-/// How much farther out than 1/2, as a part of an axis' length, a triangle's shadow on it begins: the shadow is from
-/// the least to the greatest of three places, `size` is the sum of the axis' components.
+/// Returns the distance beyond 1/2 where a triangle's projection onto an axis begins, relative to the axis' length. The
+/// projection is from the minimum to the maximum of three places; `size` is the sum of the axis' components.
 EXACT float certifiedShadowGap(float a, float b, float c, float size) {
     return certifiedShadowBegins(a, b, c) - 0.5f * size;
 }
@@ -38,15 +38,15 @@ EXACT float certifiedOverlapMargin(float delta) {
     return CERTIFIED_OVERLAP_MARGIN * delta;
 }
 
-/// Takes one axis into account: a gap beyond the margin separates, and one within it leaves open what cutting leaves.
-/// `margin` is that of an axis whose `size` is 1.
+/// Applies one axis: a gap beyond the margin separates; a gap within the margin leaves the result of clipping open.
+/// `margin` is for an axis whose `size` is 1.
 EXACT void certifiedSeparate(float gap, float size, float margin, INOUT(bool) none, INOUT(bool) some) {
     const float most = margin * size;
     none = none || gap > most;
     some = some && gap <= -most;
 }
 
-/// The three axes at right angles to an edge, of a triangle whose corners are relative to the cell's middle.
+/// Applies the three axes perpendicular to an edge of a triangle whose corners are relative to the cell's middle.
 EXACT void certifiedSeparateByEdge(VoxelPoint edge, VoxelPoint a, VoxelPoint b, VoxelPoint c, float margin,
                                    INOUT(bool) none, INOUT(bool) some) {
     const float x = certifiedAbs(edge.x);
@@ -67,9 +67,9 @@ EXACT bool certifiedInCell(VoxelPoint fromMiddle) {
     return voxelLength(fromMiddle) <= 0.5f;
 }
 
-/// Whether certifiedClip() leaves something of a triangle in the cell (x, y, z): CERTIFIED_CERTAIN, CERTIFIED_NONE, or
-/// CERTIFIED_UNDECIDED where it has to be cut. Expects a cell that the triangle's box meets, and that is whole in the
-/// domain.
+/// Predicts whether certifiedClip() leaves a part of a triangle in the cell (x, y, z): CERTIFIED_CERTAIN,
+/// CERTIFIED_NONE, or CERTIFIED_UNDECIDED if it must be clipped. Expects a cell that meets the triangle's box and lies
+/// completely in the domain.
 EXACT int certifiedOverlap(CertifiedTriangle triangle, int x, int y, int z) {
     if (!certifiedOverlapMayBeAsked(triangle)) {
         return CERTIFIED_UNDECIDED;
@@ -90,7 +90,7 @@ EXACT int certifiedOverlap(CertifiedTriangle triangle, int x, int y, int z) {
     certifiedSeparateByEdge(voxelDifference(b, a), a, b, c, margin, none, some);
     certifiedSeparateByEdge(voxelDifference(c, b), a, b, c, margin, none, some);
     certifiedSeparateByEdge(voxelDifference(a, c), a, b, c, margin, none, some);
-    // Rounding may have turned the normal: as certifiedPlaneMisses() has it.
+    // Rounding may have turned the normal, like in certifiedPlaneMisses().
     const VoxelPoint normal = triangle.normal;
     const float size = certifiedAbs(normal.x) + certifiedAbs(normal.y) + certifiedAbs(normal.z);
     const float slack = triangle.reach * triangle.reach * (triangle.reach + 1.0f) * CERTIFIED_CLIP_ERROR;

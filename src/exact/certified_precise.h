@@ -51,7 +51,7 @@ EXACT PreciseThree preciseAdded(PreciseThree sum, float term) {
     return added;
 }
 
-/// By its bits: a comparison may take what is below the least normal float for zero.
+/// By its bits: a comparison may flush denormals to zero.
 EXACT bool preciseIsZero(float value) {
     return (floatBitsToInt(value) & 0x7fffffff) == 0;
 }
@@ -69,7 +69,7 @@ EXACT PreciseThree preciseAddedProduct(PreciseThree sum, float a, float b) {
     return added;
 }
 
-/// The same number, its parts apart: |middle| is at most a unit of `high`, and where `high` is zero all are.
+/// Separates the parts of the same number: |middle| is at most a unit of `high`; if `high` is zero, all parts are.
 EXACT PreciseThree preciseSettled(PreciseThree sum) {
     ROLLED for (int round = 0; round < 3; ++round) {
         const PreciseTwo first = preciseSum(sum.high, sum.middle);
@@ -89,8 +89,8 @@ struct PrecisePoint {
 struct PreciseVertex {
     PrecisePoint point;
     float error; // voxels, along each axis
-    // A bit for each face of the domain, 2 * axis and that of the far end the next: the vertex is certainly in the
-    // closed half-space that the domain is in, in the face itself, beyond it.
+    // One bit per face of the domain, 2 * axis for the near end and the next one for the far end: the vertex is
+    // certainly in the closed half-space of the domain, in the face itself, beyond the face.
     int inside, on, beyond;
 };
 
@@ -110,7 +110,7 @@ EXACT PreciseThree preciseFromFace(PairHandle pair, int axis, VoxelPoint vertex)
     return preciseSettled(sum);
 }
 
-/// Where a vertex is of a face, `from` being how far inside.
+/// Returns the position of a vertex relative to a face; `from` is its distance inside.
 EXACT void preciseSide(PreciseThree from, float missing, int face, INOUT(PreciseVertex) vertex) {
     // What is behind `high` is less than half of it.
     PRECISE float least = 0.5f * from.high;
@@ -119,7 +119,7 @@ EXACT void preciseSide(PreciseThree from, float missing, int face, INOUT(Precise
     vertex.beyond |= -least > missing ? 1 << face : 0;
 }
 
-/// A coordinate of a vertex; `known` is what its place may be off for the numbers that it was made from.
+/// Returns a coordinate of a vertex; `known` is the error that its inputs cause.
 EXACT PreciseTwo precisePlace(PairHandle pair, CertifiedItem item, int axis, VoxelPoint at, float known,
                               INOUT(PreciseVertex) vertex) {
     const int size = axis == 0 ? item.sizeX : (axis == 1 ? item.sizeY : item.sizeZ);
@@ -174,9 +174,9 @@ struct PreciseTriangle {
     float error;  // voxels by which it, and cuts of it, may be displaced along each axis
     float delta;  // voxels by which its points in a cell, and pieces of it, may be displaced along each axis, at most
                   // twice; nothing is known of it unless delta <= CERTIFIED_MOST_DELTA
-    float far;    // its largest coordinate in voxels, and two
+    float far;    // its largest coordinate in voxels, plus two
     int inside;   // of all of it: as in PreciseVertex
-    bool outside; // all of it is certainly beyond a face
+    bool outside; // the whole triangle is certainly beyond a face
 };
 
 /// Replaces what is beyond a face by a vertex in it where the triangle meets the half-space in vertices that are in the
@@ -250,11 +250,11 @@ EXACT PreciseTwo preciseBetween(PreciseTwo from, PreciseTwo to, PreciseTwo weigh
     return precisePlus(from, preciseTimes(weight, preciseMinus(to, from)));
 }
 
-/// Where the edge from a corner inside of a plane to one outside meets it.
+/// Returns the intersection of a plane and the edge from a corner inside to one outside.
 EXACT PrecisePoint preciseCut(PrecisePoint inside, PrecisePoint outside, PreciseTwo distanceInside,
                               PreciseTwo distanceOutside) {
     PreciseTwo weight = preciseOver(distanceInside, preciseMinus(distanceInside, distanceOutside));
-    // Not where both are in the plane but for rounding: any point of the edge will do.
+    // Unless both are in the plane within rounding: then any point of the edge is right.
     if (!(weight.high >= 0.0f && weight.high <= 1.0f)) {
         weight = preciseTwo(0.0f, 0.0f);
     }
@@ -265,7 +265,7 @@ EXACT PrecisePoint preciseCut(PrecisePoint inside, PrecisePoint outside, Precise
     return cut;
 }
 
-/// certifiedInsideBy() of a precise point, and `beyond` more.
+/// certifiedInsideBy() of a precise point, plus `beyond`.
 EXACT PreciseTwo preciseInsideBy(PrecisePoint point, int axis, float limit, bool above, float beyond) {
     const PreciseTwo past = precisePlus(preciseAlong(point, axis), preciseTwo(-limit, 0.0f));
     return precisePlus(above ? past : preciseTwo(-past.high, -past.low), preciseTwo(beyond, 0.0f));
@@ -279,8 +279,8 @@ EXACT PrecisePoint preciseRelative(PrecisePoint point, VoxelPoint origin) {
     return relative;
 }
 
-/// certifiedClip() of a precise triangle that is known: a little beyond the cell. But where the domain ends and only
-/// points that are certainly in it are wanted, `within`, it is a little less.
+/// certifiedClip() of a precise triangle that is known: a little beyond the cell. With `within`, only points that are
+/// certainly in the domain remain: a little less.
 EXACT int preciseClip(PreciseTriangle triangle, CertifiedCell cell, VoxelPoint origin,
                       bool within HANDED(VoxelPoint, polygon, CERTIFIED_MAX_CORNERS)) {
     PrecisePoint corners[2 * CERTIFIED_MAX_CORNERS];
@@ -300,7 +300,7 @@ EXACT int preciseClip(PreciseTriangle triangle, CertifiedCell cell, VoxelPoint o
         int kept = 0;
         PrecisePoint here = corners[first];
         PreciseTwo distanceHere = preciseTwo(0.0f, 0.0f);
-        // The first round only finds how far inside the first corner is, so that this is one text for all.
+        // The first round only computes the distance of the first corner, so that one loop body serves all.
         for (int i = -1; i < count; ++i) {
             const PrecisePoint next = corners[first + (i + 1 < count ? i + 1 : 0)];
             const PreciseTwo distanceNext = preciseInsideBy(next, axis, end, above, beyond);
@@ -329,7 +329,7 @@ EXACT int preciseClip(PreciseTriangle triangle, CertifiedCell cell, VoxelPoint o
     return count;
 }
 
-/// The cell for a precise triangle: all of that is inside of a face needs no room to it.
+/// Returns the cell for a precise triangle: a triangle inside a face needs no distance from it.
 EXACT CertifiedCell preciseCell(CertifiedItem item, PreciseTriangle triangle, CertifiedCorners corners, int x, int y,
                                 int z) {
     CertifiedCell cell = certifiedCell(item, corners, x, y, z, triangle.delta);
@@ -342,13 +342,13 @@ EXACT CertifiedCell preciseCell(CertifiedItem item, PreciseTriangle triangle, Ce
     return cell;
 }
 
-/// Whether a precise triangle in this cell may leave the domain.
+/// Returns true if a precise triangle in this cell may leave the domain.
 EXACT bool preciseCrosses(CertifiedCell cell) {
     return cell.safeLo.x > -1.0f || cell.safeLo.y > -1.0f || cell.safeLo.z > -1.0f || cell.safeHi.x < 2.0f ||
            cell.safeHi.y < 2.0f || cell.safeHi.z < 2.0f;
 }
 
-/// The cell for the part of a precise triangle that is certainly in the domain.
+/// Returns the cell for the part of a precise triangle that is certainly in the domain.
 EXACT CertifiedCell preciseWithin(CertifiedCell cell) {
     cell.safeLo = voxelPoint(-1.0f, -1.0f, -1.0f);
     cell.safeHi = voxelPoint(2.0f, 2.0f, 2.0f);

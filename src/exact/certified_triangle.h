@@ -9,9 +9,10 @@
 
 #include "exact.h"
 
-/// Of the longest side of a triangle, in voxels: how far clipping and moving to a cell's corner may shift its points.
+/// Maximum shift of a triangle's points by clipping and by moving to a cell's corner, relative to its longest side in
+/// voxels.
 #define CERTIFIED_CLIP_ERROR 3.814697265625e-6f
-/// Beyond this many voxels of displacement nothing is certain.
+/// Voxels: maximum displacement of a decidable triangle.
 #define CERTIFIED_MOST_DELTA 0.125f
 /// Voxels. A vertex whose error is larger may be anywhere.
 #define CERTIFIED_FARTHEST 1.0e30f
@@ -76,7 +77,7 @@ struct CertifiedVertex {
 struct CertifiedTriangle {
     VoxelPoint corner0, corner1, corner2;
     VoxelPoint normal; // not a unit vector
-    float reach;       // its longest side along an axis, and two voxels
+    float reach;       // its longest side along an axis, plus two voxels
     float delta;       // voxels by which its points, and pieces of it, may be displaced along each axis
 };
 
@@ -85,7 +86,7 @@ struct CertifiedBounds {
     int firstX, firstY, firstZ; // inclusive; none: last < first
     int lastX, lastY, lastZ;
     float delta;
-    bool usable; // false: delta is too large, or not a number, for any fragment to be decided
+    bool usable; // false: delta is too large or NaN, so no fragment can be decided
 };
 
 EXACT CertifiedVertex certifiedVertex(CertifiedPair pair, float x, float y, float z) {
@@ -100,7 +101,7 @@ EXACT CertifiedVertex certifiedVertex(CertifiedPair pair, float x, float y, floa
     return vertex;
 }
 
-/// The cells of an axis that a triangle from `lo` to `hi` may meet. NaN meets all.
+/// Returns the cells along an axis that a triangle from `lo` to `hi` may meet. NaN meets all.
 EXACT void certifiedCells(float lo, float hi, float delta, int size, OUT(int) first, OUT(int) last) {
     PRECISE float from = lo - delta;
     PRECISE float to = hi + delta;
@@ -114,7 +115,7 @@ EXACT void certifiedCells(float lo, float hi, float delta, int size, OUT(int) fi
     last = to < float(size - 1) ? (to >= 0.0f ? int(to) : -1) : size - 1;
 }
 
-/// The box of voxel space that something lies in, but for `delta` along each axis.
+/// A bounding box in voxel space, within `delta` along each axis.
 struct CertifiedReach {
     VoxelPoint lo, hi;
     float delta;
@@ -135,13 +136,12 @@ EXACT CertifiedReach certifiedReach(CertifiedVertex vertex0, CertifiedVertex ver
     PRECISE float error01 = vertex0.error + vertex1.error;
     PRECISE float error012 = error01 + vertex2.error;
     PRECISE float delta = certifiedMax(vertex0.error, certifiedMax(vertex1.error, vertex2.error)) + shift;
-    // The sum is not finite where one of them is not: the maximum may pass over a NaN. Infinity meets all cells,
-    // wherever rounding has put the points.
+    // The sum is not finite if one of them is not; a maximum may ignore a NaN. Infinity meets all cells.
     found.delta = error012 <= CERTIFIED_FARTHEST ? delta : intBitsToFloat(0x7f800000);
     return found;
 }
 
-/// The cells that what lies in it may pass through.
+/// Returns the cells that the contents of the box may cross.
 EXACT CertifiedBounds certifiedBoundsOf(CertifiedItem item, CertifiedReach reach) {
     CertifiedBounds bounds;
     bounds.delta = reach.delta;
@@ -171,7 +171,8 @@ EXACT float certifiedExtent(vec4 row, VoxelPoint radius) {
     return certifiedAbs(row[0]) * radius.x + certifiedAbs(row[1]) * radius.y + certifiedAbs(row[2]) * radius.z;
 }
 
-/// Of the triangles in a box of object space: certifiedReach() of each is in it, and its delta is no larger.
+/// Returns bounds for the triangles in a box of object space: they contain certifiedReach() of each, and delta is an
+/// upper bound.
 EXACT CertifiedReach certifiedBoxReach(CertifiedPair pair, CertifiedBox box) {
     // Halves first: the sum of two large floats may overflow.
     const VoxelPoint centre =
@@ -228,8 +229,8 @@ EXACT CertifiedTriangle certifiedTriangle(VoxelPoint a, VoxelPoint b, VoxelPoint
     return triangle;
 }
 
-/// Whether the triangle's plane certainly misses a cube of voxel space, given by its centre and radius, half its side.
-/// Only for cubes that meet the cells of the triangle.
+/// Returns true if the triangle's plane certainly misses a cube of voxel space; `radius` is half its side. Only for
+/// cubes that meet the cells of the triangle.
 EXACT bool certifiedPlaneMisses(CertifiedTriangle triangle, VoxelPoint centre, float radius) {
     const VoxelPoint from = voxelDifference(centre, triangle.corner0);
     PRECISE float x = from.x * triangle.normal.x;
@@ -252,7 +253,7 @@ EXACT bool certifiedPlaneMisses(CertifiedTriangle triangle, VoxelPoint centre, f
     return certifiedAbs(distance) > most;
 }
 
-/// The same of a box, whose sides' halves are `radius`.
+/// Like certifiedPlaneMisses(), for a box; `radius` holds half its sides.
 EXACT bool certifiedPlaneMissesBox(CertifiedTriangle triangle, VoxelPoint centre, VoxelPoint radius) {
     const VoxelPoint normal = triangle.normal;
     const float distance = voxelDot(voxelDifference(centre, triangle.corner0), normal);
@@ -263,15 +264,15 @@ EXACT bool certifiedPlaneMissesBox(CertifiedTriangle triangle, VoxelPoint centre
     return certifiedAbs(distance) > extent + triangle.reach * triangle.reach * far * CERTIFIED_CLIP_ERROR;
 }
 
-/// From 0 to where the shadow of three places on an axis begins; negative where 0 is in it.
+/// Returns the distance from 0 to the projection of three points onto an axis; negative if the projection contains 0.
 EXACT float certifiedShadowBegins(float a, float b, float c) {
     const float least = certifiedMin(a, certifiedMin(b, c));
     const float greatest = certifiedMax(a, certifiedMax(b, c));
     return certifiedMax(least, -greatest);
 }
 
-/// Whether one of the three axes at right angles to an edge, and to one of the box's, separates a triangle, whose
-/// corners are relative to a box's centre, from the box.
+/// Returns true if a triangle, with corners relative to a box's centre, is separated from the box by one of three axes:
+/// those perpendicular to an edge and to an edge of the box.
 EXACT bool certifiedEdgeMisses(VoxelPoint edge, VoxelPoint a, VoxelPoint b, VoxelPoint c, VoxelPoint radius) {
     const float x = certifiedAbs(edge.x);
     const float y = certifiedAbs(edge.y);

@@ -15,8 +15,8 @@
 #define OUTPUT_BOUND_WORDS 6
 #define OUTPUT_HEADER_WORDS 4
 #define OUTPUT_CONTACT_WORDS 12
-/// The way out of what is opaque is cut into at most this many steps, and the last of them halved this often. More than
-/// steps of half a voxel through most images; llvmpipe ends loops of 65,535 rounds.
+/// Maximum steps of the march out of the opaque region, and bisections of the last step. Enough for half-voxel steps
+/// through typical images; llvmpipe ends loops after 65,535 rounds.
 #define CONTACT_MOST_STEPS 16384
 #define CONTACT_HALVINGS 16
 
@@ -38,7 +38,7 @@ namespace voxtact::shader {
 #define OPACITY_AT(pair, at) contactOpacity(pair, at)
 #endif
 
-/// What the outputs beside the count need of one pair; element `pair` of a std430 buffer.
+/// Inputs of one pair for the outputs other than the count; element `pair` of a std430 buffer.
 struct OutputPair {
     vec4 world_from_texture[3];
     vec4 texture_from_world[3]; // of directions: the fourth column is not used
@@ -49,7 +49,7 @@ struct OutputPair {
     float valueScale;           // value = valueScale * stored + valueBias
     float valueBias;
     float maxDepth;    // mm
-    float depthWay;    // mm: as far, or to where the image certainly has ended
+    float depthWay;    // mm: maximum depth, or the certain end of the image
     float depthStep;   // mm
     uint depthSteps;   // the last one ends at depthWay
     uint doublings;    // of the gradient's step, until it is `farthest` along all axes
@@ -72,7 +72,7 @@ struct ContactVector {
     float x, y, z;
 };
 
-/// What a contact says of its place.
+/// Values of a contact at its position.
 struct ContactSample {
     float stored;
     float opacity;
@@ -237,7 +237,7 @@ FIELD_FUNCTION EXACT bool contactOpaque(FIELD OUTPUT_PAIR pair, ContactVector at
     return contactInDomain(at) && OPACITY_AT(pair, contactClamp(at)) >= pair.item.threshold;
 }
 
-/// mm along the normal from a texture coordinate to where it is not opaque any more, or out of the image.
+/// Returns the distance in mm along the normal from a texture coordinate to the end of the opaque region or the image.
 FIELD_FUNCTION EXACT float contactDepth(FIELD OUTPUT_PAIR pair, ContactVector at, ContactVector normal) {
     if (contactIsZero(normal)) {
         return pair.maxDepth;
@@ -252,7 +252,7 @@ FIELD_FUNCTION EXACT float contactDepth(FIELD OUTPUT_PAIR pair, ContactVector at
     PRECISE float outside = 0.0f;
     bool left = false;
     int halvings = 0;
-    // One loop for both, so that there is one look-up to compile.
+    // One loop for both compiles only one look-up.
     for (uint step = 1u; (left || step <= pair.depthSteps) && halvings <= CONTACT_HALVINGS; ++step) {
         PRECISE float marched = step == pair.depthSteps ? pair.depthWay : float(step) * pair.depthStep;
         PRECISE float sum = inside + outside;

@@ -6,7 +6,7 @@
 
 #include "exact.h"
 
-/// Square voxels. A normal whose components are all smaller counts as none: a device may take such numbers for zero.
+/// Square voxels. A normal with only smaller components counts as none: a device may flush such numbers to zero.
 #define DOMINANT_SMALLEST_NORMAL 1e-30f
 
 #include "exact_language.h"
@@ -42,9 +42,9 @@ EXACT void dominantPlace(INOUT(ExactCorner) corner, int axis, float x, float y, 
     corner.w = 1.0f;
 }
 
-/// Replaces the clip coordinates of a triangle's corners by their projection along the axis of the largest component
-/// of its normal in voxel space; of equals, along the first. False for a triangle without a normal, which has no
-/// fragment: its corners are then left as they are.
+/// Replaces the clip coordinates of a triangle's corners by their projection along the axis of the largest component of
+/// its normal in voxel space; of equals, along the first. Returns false for a triangle without a normal, which has no
+/// fragment, and keeps its corners.
 EXACT bool dominantProject(INOUT(ExactCorner) c0, INOUT(ExactCorner) c1, INOUT(ExactCorner) c2, DominantGrid grid) {
     PRECISE float x0 = c0.tx * grid.sizeX;
     PRECISE float y0 = c0.ty * grid.sizeY;

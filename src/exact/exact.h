@@ -10,12 +10,12 @@
 
 /// Sub-pixel steps in a pixel: 8 fraction bits, as every rasteriser at hand has.
 #define EXACT_SUBPIXEL 256
-/// Coordinates are kept within this many pixels of the viewport's centre by clipping, so that edge functions are at
-/// most 2^49 in size, which longToFloat() takes. It is the largest viewport, too.
+/// Clipping keeps coordinates within this many pixels of the viewport's centre, so that longToFloat() can convert edge
+/// functions, at most 2^49. It is also the largest viewport.
 #define EXACT_GUARD_PIXELS 16384.0f
 /// Sub-pixels of a corner lie within this. The guard band keeps to 3/4 of it; a cut whose rounding was bad may not.
 #define EXACT_FARTHEST_SUBPIXEL 8388608.0f
-/// A triangle that six planes clip has at most this many corners.
+/// Maximum corners of a triangle after clipping by six planes.
 #define EXACT_MAX_CORNERS 9
 /// Texture coordinates of a triangle that is not far larger than the image are interpolated with errors below this.
 #define EXACT_BEYOND 1e-3f
@@ -103,8 +103,8 @@ EXACT bool exactBeyondAxis(float a, float b, float c) {
            (a > 1.0f + EXACT_BEYOND && b > 1.0f + EXACT_BEYOND && c > 1.0f + EXACT_BEYOND);
 }
 
-/// Whether the corners of a triangle, before any clipping, are all beyond one side of the image: where there is a range
-/// test it has no survivor, also where a corner is so far away that what is interpolated means nothing.
+/// Returns true if all corners of a triangle, before clipping, are beyond one side of the image. With a range test it
+/// has no passing fragment, even if a corner is too far away for interpolation.
 EXACT bool exactBeyond(ExactCorner a, ExactCorner b, ExactCorner c) {
     return exactBeyondAxis(a.tx, b.tx, c.tx) || exactBeyondAxis(a.ty, b.ty, c.ty) || exactBeyondAxis(a.tz, b.tz, c.tz);
 }
@@ -136,8 +136,8 @@ EXACT float exactLerp(float a, float b, float weight) {
     return sum;
 }
 
-/// Where the edge from a corner inside to one outside meets the plane. Always from the nearer of the two, so that what
-/// is far away does not swallow the place, and two triangles that share an edge cut it at the same bits.
+/// Returns the intersection of a plane and the edge from a corner inside to one outside. It starts at the nearer of the
+/// two, which keeps precision, and two triangles that share an edge cut it at the same bits.
 EXACT ExactCorner exactCut(ExactCorner inside, ExactCorner outside, float distanceInside, float distanceOutside) {
     PRECISE float span = distanceInside - distanceOutside;
     float nearest = distanceInside;
@@ -165,8 +165,8 @@ ExactCorner exactPolygon[EXACT_MAX_CORNERS]; // as HANDED says
 #endif
 
 /// Clips a polygon of `count` corners by all six planes, in place; returns the number of corners that are left
-/// (Sutherland and Hodgman, "Reentrant polygon clipping", 1974). What is clipped and what is left of it are the halves
-/// of one array, as in certifiedClipPlane().
+/// (Sutherland and Hodgman, "Reentrant polygon clipping", 1974). Input and output are the halves of one array, like in
+/// certifiedClipPlane().
 EXACT int exactClip(int count HANDED(ExactCorner, exactPolygon, EXACT_MAX_CORNERS), float guardX, float guardY) {
     ExactCorner both[2 * EXACT_MAX_CORNERS];
     UNKNOWN_ROUNDS for (int i = 0; i < count; ++i) {
@@ -178,7 +178,7 @@ EXACT int exactClip(int count HANDED(ExactCorner, exactPolygon, EXACT_MAX_CORNER
         int kept = 0;
         ExactCorner here = both[first];
         float distanceHere = 0.0f;
-        // The first round only finds how far inside the first corner is, so that this is one text for all.
+        // The first round only computes the distance of the first corner, so that one loop body serves all.
         for (int i = -1; i < count; ++i) {
             ExactCorner next = both[first + (i + 1 < count ? i + 1 : 0)];
             float distanceNext = exactPlane(next, plane, guardX, guardY);
@@ -207,7 +207,7 @@ EXACT int exactClip(int count HANDED(ExactCorner, exactPolygon, EXACT_MAX_CORNER
     return count;
 }
 
-/// Whether a corner needs no clipping.
+/// Returns true if a corner needs no clipping.
 EXACT bool exactInside(ExactCorner corner, float guardX, float guardY) {
     bool inside = true;
     for (int plane = 0; plane < 6; ++plane) {
@@ -225,17 +225,17 @@ EXACT float exactSubpixel(float clip, float reciprocalW, float scale) {
     return floor(rounded);
 }
 
-/// Whether sub-pixels fit the integers that are made of them; NaN does not.
+/// Returns true if sub-pixels fit into integers; NaN does not.
 EXACT bool exactFits(float subpixel) {
     return subpixel >= -EXACT_FARTHEST_SUBPIXEL && subpixel <= EXACT_FARTHEST_SUBPIXEL;
 }
 
-/// Whether exactReciprocal() of a w means anything; NaN and negative ones are not.
+/// Returns true if exactReciprocal() is valid for a w: not for NaN or negative numbers.
 EXACT bool exactUsableW(float w) {
     return w >= 1e-30f && w <= 1e30f;
 }
 
-/// 1/w. Exactly 1 for 1, whatever the other corners of its triangle are: neighbours share the corner's place.
+/// Returns 1/w, exactly 1 for 1 in every triangle: neighbours share the corner's position.
 EXACT float exactReciprocalW(float w) {
     return w == 1.0f ? 1.0f : exactReciprocal(w);
 }
@@ -250,7 +250,7 @@ EXACT int exactBias(int ax, int ay, int bx, int by) {
     return (by < ay || (by == ay && bx > ax)) ? 0 : -1;
 }
 
-/// Triangle set-up. Expects corners that exactInside() accepts. False for a triangle that covers nothing.
+/// Sets up a triangle. Expects corners that exactInside() accepts. Returns false for a triangle that covers nothing.
 EXACT bool exactSetUp(ExactCorner c0, ExactCorner c1, ExactCorner c2, int width, int height,
                       OUT(ExactTriangle) triangle) {
     if (!exactUsableW(c0.w) || !exactUsableW(c1.w) || !exactUsableW(c2.w)) {
@@ -359,7 +359,7 @@ EXACT float exactPlaneAt(float base, float u, float v, float weight1, float weig
     return sum;
 }
 
-/// The fragment of a pixel: whether it is covered, and its texture coordinate.
+/// The fragment of a pixel: coverage and texture coordinate.
 EXACT bool exactFragment(ExactTriangle triangle, int pixelX, int pixelY, OUT(float) tx, OUT(float) ty, OUT(float) tz) {
     int px = pixelX * EXACT_SUBPIXEL + EXACT_SUBPIXEL / 2;
     int py = pixelY * EXACT_SUBPIXEL + EXACT_SUBPIXEL / 2;
@@ -386,7 +386,7 @@ EXACT bool exactFragment(ExactTriangle triangle, int pixelX, int pixelY, OUT(flo
     return covered;
 }
 
-/// Whether a coordinate is within the image; NaN is not.
+/// Returns true if a coordinate is within the image; NaN is not.
 EXACT bool exactInDomain(float coordinate) {
     return coordinate >= 0.0f && coordinate <= 1.0f;
 }
@@ -396,7 +396,7 @@ EXACT float exactClamp(float coordinate) {
     return coordinate >= 0.0f ? (coordinate <= 1.0f ? coordinate : 1.0f) : 0.0f;
 }
 
-/// The two voxels that a coordinate falls between along one axis, and how far it is from the first to the second.
+/// The two voxels around a coordinate along one axis, and the coordinate's fraction between them.
 struct ExactCell {
     int below, above;
     float weight;
@@ -416,8 +416,8 @@ EXACT ExactCell exactCell(float coordinate, int size) {
     return cell;
 }
 
-/// Where a stored value is looked up in a table of `size` entries; stored values are the integers of integer voxels.
-/// NaN (huge float voxels can overflow) is looked up at the first entry.
+/// Returns the position of a stored value in a table of `size` entries; stored values are the integers of integer
+/// voxels. NaN (huge float voxels can overflow) gives the first entry.
 EXACT ExactCell exactEntry(float stored, float scalarScale, float scalarBias, int size) {
     PRECISE float scaled = stored * scalarScale;
     PRECISE float scalar = scaled + scalarBias;

@@ -13,30 +13,29 @@
 #include <limits>
 namespace voxtact::shader {
 
-/// What the host knows of some intervals: what is asked of a range then mostly takes two comparisons.
+/// Facts about the intervals, computed on the host: most queries about a range then take two comparisons.
 struct OpacityBounds {
     static constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-    /// Nothing before `first` or behind `last` may be opaque.
+    /// No value before `first` or after `last` may be opaque.
     float first = -kInfinity;
     float last = kInfinity;
-    /// The longest of the intervals that are opaque all over. Empty: there is none.
+    /// The longest completely opaque interval; empty if there is none.
     float allFirst = kInfinity;
     float allLast = -kInfinity;
 
-    /// What they say of a range: nothing in it is opaque, something is, all is. False where they do not say it, and
-    /// with NaN.
+    /// Their answers about a range: none, some or all of it is opaque. False if unknown, and for NaN.
     [[nodiscard]] constexpr bool none(float lo, float hi) const noexcept { return hi < first || lo > last; }
     [[nodiscard]] constexpr bool some(float lo, float hi) const noexcept { return lo <= allLast && hi >= allFirst; }
     [[nodiscard]] constexpr bool all(float lo, float hi) const noexcept { return lo >= allFirst && hi <= allLast; }
 };
 #endif
 
-/// Closed intervals of entries, ascending and apart, and the control points of the function
+/// Closed intervals of entries, ascending and disjoint, and the control points of the function
 /// (core/transfer/opaque_numbers.h).
 struct OpaqueValues {
-    int outer;  // intervals that hold all that is opaque
-    int inner;  // intervals that are opaque all over
+    int outer;  // outer intervals, which contain all opaque entries
+    int inner;  // inner intervals, completely opaque
     int points; // of the function
     float threshold;
 #ifdef __cplusplus
@@ -53,7 +52,7 @@ EXACT float opaqueNumber(OpaqueValues values, int index) {
 float opaqueNumber(OpaqueValues values, int index); // the program's
 #endif
 
-/// A step of a search: beyond `steps` intervals that end before `lo`.
+/// A step of a search: skips `steps` intervals that end before `lo`.
 #define OPAQUE_STEP(steps)                                                                                             \
     if (from + (steps) <= count && opaqueNumber(values, 2 * (first + from + (steps)-1) + 1) < lo) {                    \
         from += (steps);                                                                                               \
@@ -86,7 +85,7 @@ EXACT int opaqueIntervalAt(OpaqueValues values, int first, int count, float lo) 
 }
 #undef OPAQUE_STEP
 
-/// Whether some entry of [lo, hi] may be opaque. NaN may be anything.
+/// Returns true if an entry of [lo, hi] may be opaque; NaN may.
 EXACT bool mayBeOpaque(OpaqueValues values, float lo, float hi) {
 #ifdef __cplusplus
     if (values.bounds.none(lo, hi)) {
@@ -100,7 +99,7 @@ EXACT bool mayBeOpaque(OpaqueValues values, float lo, float hi) {
     return at < values.outer && !(opaqueNumber(values, 2 * at) > hi);
 }
 
-/// Whether all entries of [lo, hi] are certainly opaque. False with NaN.
+/// Returns true if all entries of [lo, hi] are certainly opaque; false for NaN.
 EXACT bool certainlyAllOpaque(OpaqueValues values, float lo, float hi) {
 #ifdef __cplusplus
     if (values.inner <= 1 || values.bounds.all(lo, hi)) {
@@ -112,7 +111,7 @@ EXACT bool certainlyAllOpaque(OpaqueValues values, float lo, float hi) {
            hi <= opaqueNumber(values, 2 * (values.outer + at) + 1);
 }
 
-/// Whether some entry of [lo, hi] is certainly opaque: false for an empty range, and with NaN.
+/// Returns true if an entry of [lo, hi] is certainly opaque; false for an empty range and for NaN.
 EXACT bool certainlySomeOpaque(OpaqueValues values, float lo, float hi) {
 #ifdef __cplusplus
     if (values.inner <= 1 || values.bounds.some(lo, hi)) {
@@ -123,7 +122,7 @@ EXACT bool certainlySomeOpaque(OpaqueValues values, float lo, float hi) {
     return lo <= hi && at < values.inner && opaqueNumber(values, 2 * (values.outer + at)) <= hi;
 }
 
-/// The first entry from `lo` on that is certainly opaque. Expects that there is one.
+/// Returns the first certainly opaque entry from `lo` on. Expects that there is one.
 EXACT float opaqueFrom(OpaqueValues values, float lo) {
     const int at = opaqueIntervalAt(values, values.outer, values.inner, lo);
     const float first = opaqueNumber(values, 2 * (values.outer + at));

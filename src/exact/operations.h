@@ -56,7 +56,7 @@
 #define OPERATION_WIDE_SPECIAL_COMPARE 40
 /// How many there are.
 #define OPERATION_COUNT 41
-/// The one behind them: what lanes do together. Its results are those of a work group, OPERATION_GROUP_WORDS each.
+/// The last one: operations of lanes together. Its results are those of a work group, OPERATION_GROUP_WORDS each.
 #define OPERATION_GROUP 41
 #define OPERATION_GROUP_WORDS 3
 
@@ -107,7 +107,7 @@ struct OperationConstants {
 
 #include "exact_language.h"
 
-/// A float of any sign and mantissa that is neither huge nor tiny: what few operations make of such is normal.
+/// A float of any sign and mantissa, neither huge nor tiny: a few operations on such floats give normal numbers.
 EXACT float operationModerate(uint word) {
     return floatOf((word & 0x807fffffu) | ((((word >> 23) & 63u) + 96u) << 23));
 }
@@ -118,7 +118,7 @@ EXACT uint operationCompare(float a, float b) {
            (!(a < b) ? 32u : 0u);
 }
 
-/// Operations on floats alone; false: it is none of them.
+/// Operations on floats only; returns false if it is none of them.
 EXACT bool operationOnFloats(int operation, float a, float b, float c, OUT(uint) low, OUT(uint) high) {
     PRECISE float value = 0.0f;
     high = 0u;
@@ -161,12 +161,12 @@ EXACT bool operationOnFloats(int operation, float a, float b, float c, OUT(uint)
 }
 
 #ifdef OPERATIONS_OF_DOUBLES
-/// The same of double precision, that is neither huge nor tiny.
+/// Like above, in double precision.
 EXACT Wide operationWide(uint high, uint low) {
     return wideBits((high & 0x800fffffu) | ((((high >> 20) & 63u) + 992u) << 20), low);
 }
 
-/// The same of any kind but denormals, on which nothing rests: zero, infinite, NaN, huge, and most of the others.
+/// Like above, of any kind but denormals, which need not match: zero, infinite, NaN, huge, but usually others.
 EXACT Wide operationAnyWide(uint high, uint low) {
     const uint kind = (high >> 20) & 7u;
     const uint sign = high & 0x80000000u;
@@ -227,7 +227,7 @@ EXACT bool operationOnWords(int operation, uint a, uint b, OUT(uint) low, OUT(ui
     } else if (operation == OPERATION_INT_TO_FLOAT) {
         low = bitsOf(float(uintAsInt(a)));
     } else if (operation == OPERATION_UINT_TO_FLOAT) {
-        // Only those that are floats: nothing rests on how others are rounded.
+        // Only integers that floats represent: the rounding of others need not match.
         low = bitsOf(float(a & 0xffffffu));
         high = bitsOf(float(a >> 8));
     } else if (operation == OPERATION_FLOAT_TO_INT) {

@@ -23,7 +23,7 @@ struct WideMatrix {
 #define PAIR_FLOAT_ERROR wideBits(0x3ea00000u, 0u) // 2^-21
 /// The products of matrices in double, with the voxels' scale.
 #define PAIR_DOUBLE_ERROR wideBits(0x3cf00000u, 0u) // 2^-48
-/// The smallest normal float. Devices may take what is smaller for zero, wherever they load or compute it.
+/// The smallest normal float. Devices may flush smaller numbers to zero, on load or in computation.
 #define PAIR_LEAST_NORMAL wideBits(0x38100000u, 0u) // 2^-126
 /// Four such losses of a coordinate of a vertex relative to the reference: it, the reference, their difference; one
 /// more for what that adds to the computed error.
@@ -32,9 +32,9 @@ struct WideMatrix {
 #define PAIR_LEAST_ERROR wideBits(0x38700000u, 0u) // 2^-120
 /// Parts of a place are not smaller: all their bits are normal floats, and so is every sum of them.
 #define PAIR_LEAST_PART wideBits(0x39b00000u, 0u) // 2^-100
-/// Object units. A reference beyond it is worse than none.
+/// Object units. A more distant reference is worse than none.
 #define PAIR_FARTHEST_REFERENCE wideBits(0x426d1a94u, 0xa2000000u) // 1e12
-/// Above one by more than what a quotient and a sum are rounded by.
+/// Exceeds one by more than the rounding of a quotient and a sum.
 #define PAIR_A_LITTLE_MORE wideBits(0x3ff00418u, 0x9374bc6au) // 1.001
 #define PAIR_ONE wideBits(0x3ff00000u, 0u)
 #define PAIR_HALF wideBits(0x3fe00000u, 0u)
@@ -50,7 +50,7 @@ EXACT Wide wideMost(Wide a, Wide b) {
     return wideLess(a, b) ? b : a;
 }
 
-/// The float next above the one of those bits.
+/// Returns the next larger float.
 EXACT uint floatBitsAbove(uint bits) {
     const uint size = bits & 0x7fffffffu;
     if (size > PAIR_INFINITE_FLOAT || bits == PAIR_INFINITE_FLOAT) {
@@ -71,14 +71,13 @@ EXACT Wide wideProductElement(WideMatrix c_from_b, WideMatrix b_from_a, uint row
     return sum;
 }
 
-/// Where the floats of a mesh are: a vertex is these and the offset together, and no farther off than the rounding;
-/// object units.
+/// Origin of a mesh's floats: a vertex is the floats plus the offset, within the rounding; object units.
 struct PairOrigin {
     Wide offset[3];
     Wide rounding;
 };
 
-/// Where a pose takes the floats of a mesh.
+/// Returns the pose of the floats of a mesh.
 EXACT WideMatrix pairWorldFromFloats(WideMatrix world_from_object, PairOrigin origin) {
     WideMatrix moved = world_from_object;
     ROLLED for (uint axis = 0; axis < 3; ++axis) {
@@ -92,7 +91,7 @@ EXACT WideMatrix pairWorldFromFloats(WideMatrix world_from_object, PairOrigin or
     return moved;
 }
 
-/// By how much the world coordinates of vertices may be off, for the rounding of these and of pairWorldFromFloats().
+/// Returns the error of world coordinates of vertices, by their rounding and that of pairWorldFromFloats().
 struct PairOff {
     Wide world[3];
 };
@@ -115,7 +114,7 @@ EXACT PairOff pairOff(WideMatrix world_from_object, PairOrigin origin) {
     return off;
 }
 
-/// What every counting method starts from, but those of the projection `certified`.
+/// Inputs of every counting method except the projection `certified`.
 EXACT PairTransform pairTransformOf(WideMatrix clip_from_world, WideMatrix texture_from_world,
                                     WideMatrix world_from_object) {
     PairTransform transform;
@@ -132,7 +131,7 @@ EXACT PairTransform pairTransformOf(WideMatrix clip_from_world, WideMatrix textu
     return transform;
 }
 
-/// A grid as `certified` needs it for each pair.
+/// Constants of a grid for the pairs of `certified`.
 struct PairGrid {
     WideMatrix texture_from_world;
     Wide size[3]; // voxels
@@ -158,7 +157,7 @@ EXACT PairRows pairRows(PairGrid grid, WideMatrix world_from_object) {
     PairRows rows;
     ROLLED for (uint column = 0; column < 4; ++column) {
         ROLLED for (uint row = 0; row < 3; ++row) {
-            // Not from zero on: llvmpipe takes 0 + a for a, which keeps the sign of a zero.
+            // The sum does not start at zero: llvmpipe replaces 0 + a by a, which keeps the sign of a zero.
             Wide sum = wideMultiply(grid.texture_from_world.element[row], world_from_object.element[4 * column]);
             Wide magnitude = wideAbs(sum);
             ROLLED for (uint k = 1; k < 4; ++k) {
@@ -189,8 +188,8 @@ struct PairReference {
     uint bits[3];
 };
 
-/// The point of object space that comes to the volume's centre, rounded to float: what is near the volume is then near
-/// the reference, however far the object's origin is. The origin where there is no such point.
+/// Returns the point of object space at the volume's centre, rounded to float: points near the volume are then near the
+/// reference, for any object origin. The origin if there is no such point.
 EXACT PairReference pairReference(PairGrid grid, WideMatrix m) {
     // Of the determinant, and of what it divides.
     Wide sum[4];
@@ -223,7 +222,7 @@ EXACT PairReference pairReference(PairGrid grid, WideMatrix m) {
     return reference;
 }
 
-/// A sum, and what it was rounded by: both together are a + b.
+/// A sum and its rounding error: both together are a + b.
 struct PairSum {
     Wide sum;
     Wide lost;
@@ -237,7 +236,7 @@ EXACT PairSum pairSum(Wide a, Wide b) {
     return found;
 }
 
-/// A number in parts that a float holds each: their sum is exact where what is left is zero.
+/// A number as parts that are floats: their sum is exact if the remainder is zero.
 struct PairParts {
     float part[3];
     Wide left;
@@ -318,7 +317,7 @@ EXACT PairPlace obliquePlace(PairGrid grid, PairRows rows, uint row, uint column
     return place;
 }
 
-/// voxel_from_reference of a CertifiedPair, and what its coordinates may be off by.
+/// voxel_from_reference of a CertifiedPair, and the error of its coordinates.
 struct PairFloats {
     uint bits[12]; // 4 * row + column
     Wide worst[4]; // of any row
@@ -332,7 +331,7 @@ EXACT PairFloats pairFloats(PairRows rows, PairReference reference) {
         floats.worst[column] = PAIR_ZERO;
     }
     ROLLED for (uint row = 0; row < 3; ++row) {
-        // Where the reference comes to, by the columns before it.
+        // Image of the reference, by the other columns.
         Wide place = rows.value.element[12 + row];
         Wide magnitude = rows.magnitude.element[12 + row];
         Wide lost = PAIR_ZERO;
@@ -369,7 +368,7 @@ EXACT Wide pairOffVoxels(PairGrid grid, PairOff off, uint row) {
     return wideMultiply(sum, wideMultiply(grid.size[row], PAIR_A_LITTLE_MORE));
 }
 
-/// What the projection `certified` starts from.
+/// Inputs of the projection `certified`.
 EXACT CertifiedPair certifiedPairOf(PairGrid grid, WideMatrix world_from_object, PairOrigin origin) {
     const PairOff given = pairOff(world_from_object, origin);
     const WideMatrix world_from_floats = pairWorldFromFloats(world_from_object, origin);
@@ -377,7 +376,7 @@ EXACT CertifiedPair certifiedPairOf(PairGrid grid, WideMatrix world_from_object,
     const PairReference reference = pairReference(grid, rows.value);
     const PairFloats floats = pairFloats(rows, reference);
     CertifiedPair pair;
-    // By how much places are off, and then all of it as a share of what coordinates are.
+    // Errors of positions, then relative to the coordinates.
     Wide share = PAIR_ZERO;
     Wide beyond = PAIR_ZERO;
     ROLLED for (uint column = 0; column < 4; ++column) {
@@ -405,7 +404,7 @@ EXACT CertifiedPair certifiedPairOf(PairGrid grid, WideMatrix world_from_object,
         if (column == 3) {
             off = wideAdd(off, beyond);
         }
-        // Off in voxels is the product of the matrices itself, where the grid is oblique.
+        // If the grid is oblique, the product of the matrices itself has an error in voxels.
         Wide worst = wideAdd(floats.worst[column], PAIR_LEAST_ERROR);
         worst = wideAdd(worst, grid.aligned == 0u ? off : voxels);
         uint bits = floatBitsAbove(wideToFloatBits(worst));

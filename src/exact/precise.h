@@ -7,7 +7,7 @@
 
 #include "exact.h"
 
-/// A product of floats that is smaller may lose bits that are taken for zero: up to this much.
+/// A smaller product of floats may lose flushed bits: up to this much.
 #define PRECISE_LEAST_PRODUCT 8.470329472543003e-22f
 
 #include "exact_language.h"

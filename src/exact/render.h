@@ -14,17 +14,16 @@ namespace voxtact::shader {
 // Meshes whose constants fit beside each other: more are drawn in groups.
 #define PICTURE_MESHES 64
 
-/// Everything that changes from picture to picture but for the meshes: the beginning of a std430 buffer. Matrices by
-/// rows.
+/// Constants of a picture except for its meshes: the beginning of a std430 buffer. Matrices by rows.
 struct PictureConstants {
     vec4 world_from_clip[4];
     vec4 texture_from_clip[4];
     vec4 world_from_texture[3];         // of directions; w is 0
     vec4 texture_from_world[3];         // of directions; w is 0
-    vec4 planes[PICTURE_PLANES];        // world space: normal, offset; what is beyond is away
+    vec4 planes[PICTURE_PLANES];        // world space: normal, offset; removes points beyond the plane
     vec4 texturePlanes[PICTURE_PLANES]; // the same in texture space; not of unit length
     vec4 light;                         // ambient, diffuse, specular, shininess
-    vec4 side;                          // the second light: from where, in world space, and its share
+    vec4 side;                          // the second light: direction in world space, and its share
     vec4 viewport;                      // width, height
     float scalarScale;                  // normalised scalar = scalarScale * texel + scalarBias
     float scalarBias;
@@ -36,20 +35,20 @@ struct PictureConstants {
     uint switches; // PICTURE_...
     int tableSize;
     int planeCount;
-    float faceDepth; // mm behind a face that it is shaded as
-    float occlusion; // how dark it gets where nothing is open
+    float faceDepth; // mm: depth of the face shading
+    float occlusion; // darkness of completely enclosed places
     float reach;     // mm
     float spare[3];
 };
 
-/// What changes from mesh to mesh: the rest of that buffer.
+/// Constants of a mesh: the rest of that buffer.
 struct PictureMesh {
     vec4 clip_from_object[4];
     vec4 world_from_object[3];
     vec4 texture_from_object[3];
     vec4 normal_from_object[3]; // of directions; w is 0
     vec4 colour;
-    vec4 contactColour; // and how much of it is seen through the volume
+    vec4 contactColour; // and its visibility through the volume
     vec4 discardedColour;
     ItemConstants item; // of the detector that decides what is painted
     uint switches;      // PICTURE_MESH_...
@@ -72,12 +71,13 @@ struct PreintegrateConstants {
 #define PICTURE_SET_FUNCTION 1
 #define PICTURE_SET_TARGETS 2
 #define PICTURE_SET_BRICKS 3
-// Those of a mesh that is painted, beside VOXTACT_SET_VOLUME, VOXTACT_SET_TRANSFER_FUNCTION and PICTURE_SET_TARGETS.
+// Descriptor sets of a painted mesh, in addition to VOXTACT_SET_VOLUME, VOXTACT_SET_TRANSFER_FUNCTION and
+// PICTURE_SET_TARGETS.
 #define PICTURE_SET_PAINT 3
 // Bindings of PICTURE_SET_FUNCTION: the table, and the extremes of the opacity.
 #define PICTURE_BINDING_TABLE 0
 #define PICTURE_BINDING_OPACITY 1
-// Bindings of PICTURE_SET_TARGETS: PictureConstants, and what the mesh pass leaves.
+// Bindings of PICTURE_SET_TARGETS: PictureConstants, and the outputs of the mesh pass.
 #define PICTURE_BINDING_CONSTANTS 0
 #define PICTURE_BINDING_MESH_COLOUR 1
 #define PICTURE_BINDING_MESH_DISTANCE 2

@@ -60,7 +60,7 @@ EXACT Wide rigidNegated(Wide a) {
 EXACT RigidPose rigidPose(const RigidWay& way, Wide parameter) {
     const Wide halfAngle = way.halfAngle;
     const Wide done = wideMultiply(parameter, halfAngle);
-    // Sine and cosine of half of what it has turned, and of half of what it has still to turn.
+    // Sine and cosine of half the angle so far, and of half the remaining angle.
     Wide found[4];
     ROLLED for (int i = 0; i < 4; ++i) {
         Wide angle = done;

@@ -12,14 +12,14 @@ using uint = std::uint32_t;
 using vec4 = std::array<float, 4>;
 #endif
 
-/// What the vertex shader needs of one pair; element `pair` of a std430 buffer. A projection with several views has as
-/// many of them for each pair, one after the other.
+/// Inputs of the vertex shader for one pair; element `pair` of a std430 buffer. A projection with several views has one
+/// element per view, consecutive for each pair.
 struct PairTransform {
     vec4 clip_from_object[4];    // rows
     vec4 texture_from_object[3]; // its first three rows: affine
 };
 
-/// What the fragment program needs of one batch item.
+/// Inputs of the fragment program for one batch item.
 struct ItemConstants {
     float scalarScale; // normalised scalar = scalarScale * sample + scalarBias; a sample is a texel (hardware filter)
     float scalarBias;  // or the stored value behind it (exact filter)
@@ -33,7 +33,7 @@ struct RasterConstants {
     uint firstTriangle; // of the draw
 };
 
-/// How a mesh lies in its storage buffers.
+/// Layout of a mesh in its storage buffers.
 struct MeshConstants {
     uint vertexOffset; // of the first position, in floats
     uint vertexStride; // in floats
@@ -41,7 +41,7 @@ struct MeshConstants {
     uint indexBytes;   // 2, 4, or 0: not indexed
 };
 
-/// The grid that the projection `dominant-axis` has its pixels on.
+/// The pixel grid of the projection `dominant-axis`.
 struct DominantGrid {
     float sizeX; // voxels
     float sizeY;
@@ -49,7 +49,7 @@ struct DominantGrid {
     float clipScale; // clip = clipScale * voxels - 1
 };
 
-/// What the vertex shader of `dominant-axis` needs of one batch item: push constants behind the fragment program's.
+/// Inputs of the vertex shader of `dominant-axis` for one batch item: push constants after the fragment program's.
 struct DominantConstants {
     DominantGrid grid;
     MeshConstants mesh;
@@ -70,24 +70,24 @@ struct ComputeConstants {
     uint rangeTest;    // 0: clamp
 };
 
-/// Push constants of the pass that counts what the others did: shaders/touch/certified_tally.comp.
+/// Push constants of the pass that sums the counters: shaders/touch/certified_tally.comp.
 struct TallyConstants {
     uint queueWord; // as in CertifiedConstants
     uint queueRoom;
     uint rounds; // whose headers it is to count
 };
 
-/// Push constants of the pass that makes pairs of poses: shaders/count/pair_setup.comp.
+/// Push constants of the pass that turns poses into pairs: shaders/count/pair_setup.comp.
 struct PairSetupConstants {
     uint firstPair; // of the dispatch
     uint pairs;
     uint item;
     uint firstPose; // of the dispatch, in the item
     uint how;       // of the results: VOXTACT_HOW_*
-    uint refused;   // the same, of poses that cannot be used
+    uint refused;   // the same for unusable poses
     uint poseWord;  // of the words of the poses, where the first is
     uint poseWords; // from one to the next
-    uint setupWord; // where what is the same for all pairs of the item is
+    uint setupWord; // offset of the item's constants
     uint views;     // that a pair has; 0 by the projection `certified`
 };
 
@@ -113,14 +113,14 @@ struct RefitConstants {
     uint copiesIndices; // not 0: to the beginning of that buffer, 32 bits each
 };
 
-/// One surviving fragment of a pair.
+/// One passing fragment of a pair.
 struct TracedFragment {
     uint triangle;
     uint x;
     uint y;
 };
 
-/// What the projection `certified` needs of one pair; element `pair` of a std430 buffer.
+/// Inputs of the projection `certified` for one pair; element `pair` of a std430 buffer.
 struct CertifiedPair {
     vec4 reference;               // a point of object space near the volume; w: see `place`
     vec4 voxel_from_reference[3]; // rows: voxel space from object space less the reference. Voxel i's centre is at i
@@ -131,8 +131,8 @@ struct CertifiedPair {
                    // most reference.w of what `error` says
 };
 
-/// What it needs of one batch item. The entry of a stored value is entryScale * (stored - storedReference): a
-/// coordinate in which single precision does not overflow, and is most exact near an end of the opaque values.
+/// Inputs for one batch item. The entry of a stored value is entryScale * (stored - storedReference): a coordinate in
+/// which single precision does not overflow, and is most exact near an end of the opaque values.
 struct CertifiedItem {
     float entryScale;      // a power of two; 1 for integers
     float storedReference; // an end of the opaque values, for integers up to 1/2
@@ -169,11 +169,11 @@ struct CertifiedConstants {
 #define VOXTACT_RUN_TRIANGLES 16
 #define VOXTACT_CLUSTER_RUNS (VOXTACT_CLUSTER_TRIANGLES / VOXTACT_RUN_TRIANGLES)
 
-/// Numbers of OpaqueValues (opaque_values.h) that an item has at most: they lie before the queues.
+/// Maximum numbers of OpaqueValues (opaque_values.h) of an item, stored before the queues.
 #define VOXTACT_OPAQUE_WORDS 16384
-// The queues of the projection `certified` lie behind the transforms, in the same buffer: headers for some rounds,
-// and then the queues, which each round uses again. A header has for each queue the VkDispatchIndirectCommand of the
-// pass that empties it, and how many entries were put into it.
+// The queues of the projection `certified` lie behind the transforms, in the same buffer: headers for some rounds, and
+// then the queues, which each round uses again. A header has for each queue the VkDispatchIndirectCommand of the pass
+// that empties it, and its number of entries.
 #define VOXTACT_QUEUE_CLUSTERS 0 // pair, cluster: for certified_refine
 #define VOXTACT_QUEUE_RUNS 1     // pair, run: for certified_expand
 #define VOXTACT_QUEUE_LARGE 2    // pair, triangle, part, parts: for certified_large
@@ -183,7 +183,7 @@ struct CertifiedConstants {
 #define VOXTACT_QUEUES 6
 #define VOXTACT_HEADER_WORDS 32 // of a round
 #define VOXTACT_HEADERS 64
-// Behind the queues of a header, what is counted where counters are asked for (CertifiedCounters).
+// After the queues of a header: the counters (CertifiedCounters), if enabled.
 #define VOXTACT_WORK_CLUSTERS 24    // examined
 #define VOXTACT_WORK_BRICKS 25      // of large triangles, examined
 #define VOXTACT_WORK_CELLS 26       // examined
@@ -200,19 +200,19 @@ struct CertifiedConstants {
 #define VOXTACT_ROOM_LARGE(room) ((room) / 4)
 #define VOXTACT_ROOM_CELLS(room) ((room)*32)
 #define VOXTACT_ROOM_LEFT(room) ((room)*2 + VOXTACT_ROOM_LARGE(room))
-// Where each begins, in words behind the first header. `room` is a multiple of 16.
+// Offset of each, in words after the first header. `room` is a multiple of 16.
 #define VOXTACT_WORD_CELLS ((VOXTACT_WORD_COUNTERS + VOXTACT_COUNTER_WORDS + 3) / 4 * 4)
 #define VOXTACT_WORD_LARGE(room) (VOXTACT_WORD_CELLS + 4 * VOXTACT_ROOM_CELLS(room))
 #define VOXTACT_WORD_OPEN(room) (VOXTACT_WORD_LARGE(room) + 4 * VOXTACT_ROOM_LARGE(room))
 #define VOXTACT_WORD_CLUSTERS(room) (VOXTACT_WORD_OPEN(room) + VOXTACT_ROOM_CELLS(room))
 #define VOXTACT_WORD_RUNS(room) (VOXTACT_WORD_CLUSTERS(room) + 2 * (room))
 #define VOXTACT_WORD_LEFT(room) (VOXTACT_WORD_RUNS(room) + 2 * VOXTACT_ROOM_RUNS(room))
-// Behind all queues, of so many entries of what is left each: their work groups together.
+// After all queues: blocks of overflow entries, with the sum of their work groups.
 #define VOXTACT_LEFT_BLOCK VOXTACT_COMPUTE_GROUP
 #define VOXTACT_WORD_LEFT_BLOCKS(room) (VOXTACT_WORD_LEFT(room) + 4 * VOXTACT_ROOM_LEFT(room))
 #define VOXTACT_ROOM_LEFT_BLOCKS(room) ((room) / 16)
 #define VOXTACT_QUEUE_WORDS(room) (VOXTACT_WORD_LEFT_BLOCKS(room) + VOXTACT_ROOM_LEFT_BLOCKS(room))
-// What certified_finish is left, where the queue of cells or of large triangles was full: a number and what it is of.
+// Overflow entry of certified_finish, if the queue of cells or of large triangles was full: a number and its kind.
 #define VOXTACT_LEFT_SMALL 0  // the small triangles of a work group of certified_expand
 #define VOXTACT_LEFT_GROUP 1  // its large ones
 #define VOXTACT_LEFT_LARGE 2  // an entry of the queue of large triangles, from a brick on
@@ -228,7 +228,8 @@ struct CertifiedConstants {
 // With those at small triangles, counters of a round have 32 bits.
 #define VOXTACT_MOST_LOOKS 3500000000.0
 #define VOXTACT_LOOKS_OF_CLUSTER 65536
-// Work groups of certified_finish for what is left, for each cluster of the room: where triangles are not known.
+// Maximum work groups of certified_finish for overflow, per cluster of the capacity, if triangles are unknown to the
+// host.
 #define VOXTACT_GROUPS_OF_CLUSTER 4096
 
 // Descriptor sets.
@@ -247,15 +248,15 @@ struct CertifiedConstants {
 // Bindings of VOXTACT_SET_MESH.
 #define VOXTACT_BINDING_VERTICES 0
 #define VOXTACT_BINDING_INDICES 1
-// Beside these, of the pass that fits the clusters: the words that it writes.
+// Additional binding of the pass that fits the clusters: its output words.
 #define VOXTACT_BINDING_CLUSTERS 2
-// Sets of the pass that makes pairs of poses, and the bindings of the first.
+// Sets of the pass that turns poses into pairs, and the bindings of the first.
 #define VOXTACT_SET_SETUP 0
 #define VOXTACT_SET_SETUP_POSES 1
 #define VOXTACT_BINDING_SETUP_TRANSFORMS 0
 #define VOXTACT_BINDING_SETUP_RESULTS 1
 #define VOXTACT_BINDING_SETUP_ITEMS 2
-/// What is the same for all pairs of an item has so many words; for so many items at once.
+/// Words of an item's constants, and items at once.
 #define VOXTACT_SETUP_WORDS 128
 /// Of them, where the PairOrigin of its mesh is.
 #define VOXTACT_SETUP_ORIGIN 96
@@ -265,7 +266,7 @@ struct CertifiedConstants {
 // Bindings of the pass that edits voxels.
 #define VOXTACT_BINDING_EDIT_ROWS 0
 #define VOXTACT_BINDING_EDIT_TEXELS 1
-// The list of surviving fragments, behind VOXTACT_SET_PAIRS.
+// The list of passing fragments, after VOXTACT_SET_PAIRS.
 #define VOXTACT_SET_TRACE 3
 // Specialization constants.
 #define VOXTACT_CONSTANT_RANGE_TEST 0

@@ -188,8 +188,7 @@ EXACT Wide wideOfParts(WideParts parts) {
     return wideEither(parts.exponent >= 0x7ff, wideInfinity(parts.sign), found);
 }
 
-/// A quotient, `found` but for zero, infinity and NaN, each said by a bit. What is zero and infinite at
-/// once is no number.
+/// Returns a quotient: `found` unless a bit says zero, infinity or NaN. Zero and infinity together are NaN.
 EXACT Wide wideSpecial(Wide found, uint zero, uint infinite, uint nan) {
     const Wide finite = wideEither(zero != 0u, wideBits(wideSign(found), 0u), found);
     const Wide number = wideEither(infinite != 0u, wideInfinity(wideSign(found)), finite);
@@ -245,7 +244,7 @@ EXACT Wide wideOfFloatBits(uint bits) {
     const uint sign = bits & 0x80000000u;
     const uint size = bits & 0x7fffffffu;
     const uint fraction = bits & 0x7fffffu;
-    // What is smaller than the smallest normal float is a normal number here.
+    // Denormal floats are normal numbers here.
     const uint shift = (wideLeadingZeros(fraction) - 8u) & 31u;
     const bool denormal = size < 0x800000u;
     const uint significand = wideChoice(denormal, fraction << shift, fraction);

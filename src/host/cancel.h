@@ -7,8 +7,8 @@
 
 namespace voxtact::cpu {
 
-/// Batch::cancel of one call, which may be null. What any thread of the call has seen stays seen: a flag that is taken
-/// back meanwhile does not turn a call that has left something out into an answer.
+/// Batch::cancel of one call, which may be null. Cancellation is permanent for the call: resetting the flag does not
+/// turn an incomplete call into an answer.
 class Cancellation {
   public:
     explicit Cancellation(const std::atomic<bool>* asked) noexcept : asked_(asked) {}

@@ -15,7 +15,7 @@ namespace voxtact::cpu {
 
 /// Refuses outputs that the host engine cannot do, and a maximal depth that is not a positive number.
 [[nodiscard]] Result<void> checkOutputs(const Count& desc);
-/// Refuses a label map that is not there where labels are asked for, or is none.
+/// Refuses a missing label map if labels are requested, and an invalid one.
 [[nodiscard]] Result<void> checkLabelMaps(const Batch& batch, const Outputs& outputs);
 
 /// The outputs in addition to the counts of one batch, in the arithmetic of exact.h and contact.h. Threads share the
@@ -27,10 +27,10 @@ class OutputRun {
     OutputRun(const Batch& batch, const Count& desc, std::uint32_t pairs, std::uint32_t threads);
     ~OutputRun();
 
-    /// Survivors of the job's clusters, every fragment one after the other, after whose outputs were taken. No two
-    /// calls at a time with the same thread, nor two with the same cluster of a pair.
+    /// Counts the passing fragments of the job's clusters one by one, with their outputs. No two concurrent calls with
+    /// the same thread, or with the same cluster of a pair.
     std::uint64_t collect(const PairJob& job, std::size_t item, std::uint32_t pair, std::uint32_t thread);
-    /// `body` is called with a Sink for some survivors of a pair, found by somebody else. As collect().
+    /// Calls `body` with a Sink for passing fragments of a pair that the caller finds. Like collect().
     void collect(std::size_t item, std::uint32_t pair, std::uint32_t thread, const std::function<void(Sink&)>& body);
     /// Once all threads are done.
     void finish(BatchAnswer& answer);
@@ -53,7 +53,7 @@ class OutputRun {
     std::atomic<std::uint64_t> contacts_{0};
 };
 
-/// Takes the outputs of survivors of one pair; one at a time for each thread.
+/// Takes the outputs of passing fragments of one pair; one per thread.
 class OutputRun::Sink {
   public:
     Sink(OutputRun& run, std::size_t item, std::uint32_t pair, std::uint32_t thread);

@@ -38,12 +38,12 @@ struct CullForms {
     CullForms(const MeshImpl& mesh, const shader::PairTransform& transform);
 
     bool usable = false; ///< false: the numbers are too large for floats, nothing may be culled
-    Form outside[6]; ///< where one is negative over a whole box, no pixel is covered: near, far, the viewport's sides
+    Form outside[6];     ///< if one is negative over a whole box, it covers no pixel: near, far, the viewport's sides
     Form w;
     Form texture[3];
 };
 
-/// One mesh at one pose against one volume, seen once; or some of its clusters.
+/// One mesh at one pose against one volume, in one view; or some of its clusters.
 struct PairJob {
     const MeshImpl& mesh;
     const VolumeImpl& volume;

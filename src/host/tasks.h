@@ -29,8 +29,8 @@ class Tasks {
 
     [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
     [[nodiscard]] Task at(std::uint64_t task) const noexcept;
-    /// Calls `body(task, thread)` for all, until the call is cancelled, on the pool's threads. What it throws comes
-    /// out, when all are at rest.
+    /// Calls `body(task, thread)` for all tasks on the pool's threads, until cancelled. Rethrows an exception after all
+    /// threads have stopped.
     void run(ThreadPool& pool, const std::function<void(const Task&, std::uint32_t thread)>& body) const;
 
   private:

@@ -11,8 +11,8 @@ namespace voxtact::cpu {
 
 namespace {
 
-/// About what it takes to wake a thread: 20 to 40 us. So who begins alone, and wakes others later, never takes more
-/// than twice as long as is needed.
+/// About the time to wake a thread: 20 to 40 us. Starting alone and waking others later therefore at most doubles the
+/// time.
 constexpr std::chrono::microseconds kWaking{30};
 
 } // namespace

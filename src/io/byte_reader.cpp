@@ -59,7 +59,7 @@ struct ByteReader::Stored {
         return got;
     }
 
-    /// At least `least` ready bytes unless the end comes first; `least` <= kChunk.
+    /// Makes at least `least` bytes ready, fewer only at the end; `least` <= kChunk.
     void fill(std::size_t least) {
         if (ready.size() >= least || behind == 0) {
             return;
@@ -253,7 +253,7 @@ Result<std::vector<std::byte>> ByteReader::take(std::uint64_t needed) {
     if (!inflater_ && needed > stored_->left()) {
         return truncated(stored_->left());
     }
-    // What packed bytes commonly give is set aside at once, the rest as it comes.
+    // Reserves the usual size of unpacked data at once, the rest as it comes.
     constexpr std::uint64_t kCommonInAByte = 16;
     std::vector<std::byte> bytes;
     bytes.reserve(std::min(needed, inflater_ ? stored_->left() * kCommonInAByte : needed));

@@ -16,7 +16,7 @@
 
 namespace voxtact::io {
 
-/// The bytes of a file or of memory, in order, each read once; what is compressed is decompressed on the way.
+/// The bytes of a file or of memory, in order, each read once; decompresses compressed data.
 class ByteReader {
   public:
     [[nodiscard]] static Result<ByteReader> ofFile(const std::filesystem::path& path, ReadProgress progress = {});
@@ -34,22 +34,22 @@ class ByteReader {
         Gzip,
         ZlibOrGzip
     };
-    /// What follows is packed so. Once for a reader.
+    /// Declares the following bytes as packed. Once per reader.
     [[nodiscard]] Result<void> unpack(Packing packing);
 
-    /// What is left of the file, packed or not.
+    /// Returns the remaining bytes of the file, packed or not.
     [[nodiscard]] std::uint64_t stored() const noexcept;
     /// Fewer than `length` only where the bytes end. Refuses packed bytes that are cut off or damaged.
     [[nodiscard]] Result<std::size_t> read(std::byte* to, std::size_t length);
     [[nodiscard]] Result<std::string> head(std::size_t length);
-    /// How many were skipped: fewer only where the bytes end.
+    /// Returns the number of skipped bytes: fewer only at the end.
     [[nodiscard]] Result<std::uint64_t> skip(std::uint64_t length);
-    /// A line without its line feed, up to `longest` bytes of it; none at the end. Only where nothing is packed.
+    /// Returns a line without its line feed, at most `longest` bytes; empty at the end. Only for unpacked data.
     [[nodiscard]] Result<std::optional<std::string>> line(std::size_t longest);
-    /// Whether the last line that was read ended in a line feed.
+    /// Returns true if the last line ended in a line feed.
     [[nodiscard]] bool lineEnded() const noexcept { return lineEnded_; }
-    /// `needed` bytes, for the voxels: refused where fewer follow. Memory grows as they arrive, so that a header that
-    /// lies costs no more than the file holds: twice its bytes, unpacked (deflate packs at most 1032 bytes into one).
+    /// Reads `needed` bytes of voxels; refuses a shorter file. Memory grows with the data, so a false header costs at
+    /// most twice the file's bytes, unpacked (deflate packs at most 1032 bytes into one).
     [[nodiscard]] Result<std::vector<std::byte>> take(std::uint64_t needed);
     /// Goes to the end, where the checksum of packed bytes is. Returns how many bytes were left.
     [[nodiscard]] Result<std::uint64_t> finish();

@@ -13,7 +13,7 @@ namespace voxtact::io {
 
 namespace {
 
-/// What is there in the place of a file; null for a file, and where that is not known.
+/// Returns the kind of a path that is no file; null for a file or if unknown.
 const char* kindOfNoFile(std::filesystem::file_type type) {
     switch (type) {
     case std::filesystem::file_type::directory:

@@ -10,7 +10,7 @@ namespace voxtact::io {
 namespace {
 
 constexpr std::size_t kBufferBytes = std::size_t{1} << 16U;
-constexpr mode_t kMode = 0666; // as the user's mask leaves it
+constexpr mode_t kMode = 0666; // limited by the user's mask
 
 } // namespace
 
@@ -43,7 +43,7 @@ bool FileBuffer::close() {
         return reason_ == 0;
     }
     flushBuffer();
-    // A file system may tell only now what it could not store. The number is free in any case.
+    // A file system may report write errors only now. The descriptor is closed in any case.
     if (::close(file_) != 0 && errno != EINTR && reason_ == 0) {
         reason_ = errno;
     }

@@ -20,7 +20,7 @@ class FileBuffer : public std::streambuf {
     bool create(const std::filesystem::path& path);
     /// A device or a pipe that is there.
     bool openSpecial(const std::filesystem::path& path);
-    /// Writes what is left, and closes. False when anything since the opening went wrong.
+    /// Writes the rest, and closes. Returns false if any operation since the opening failed.
     bool close();
     /// Returns the errno of the first failure; 0: none.
     [[nodiscard]] int reason() const noexcept { return reason_; }

@@ -40,7 +40,7 @@ class TemporaryFile {
 
     [[nodiscard]] const fs::path& path() const noexcept { return path_; }
 
-    /// `old`: what was there before, whose permissions it has from then on.
+    /// `old`: the previous file, whose permissions it takes.
     [[nodiscard]] Result<void> renameTo(const fs::path& target, const fs::file_status& old) {
         std::error_code problem;
         if (fs::is_regular_file(old)) {
@@ -69,7 +69,7 @@ class TemporaryFile {
     bool isReleased_ = false;
 };
 
-/// Puts a file in its place, and takes it away again where that is not settled: then what was there before is back.
+/// Moves a file to its place. Unless confirmed, removes it again and restores the previous file.
 class Replacement {
   public:
     Replacement(TemporaryFile& file, fs::path target) : file_(file), target_(std::move(target)), old_(target_) {}
@@ -81,13 +81,13 @@ class Replacement {
         }
     }
 
-    /// `isLast`: whatever comes of it, nothing has to be taken away again.
+    /// `isLast`: nothing has to be removed afterwards.
     [[nodiscard]] Result<void> make(bool isLast) {
         std::error_code problem;
         const fs::file_status old = fs::status(target_, problem);
         if (fs::is_regular_file(old) && !isLast) {
             fs::create_hard_link(target_, old_.path(), problem);
-            if (problem) { // not every file system has links, nor may everybody make them
+            if (problem) { // not every file system has links, or permits them
                 fs::rename(target_, old_.path(), problem);
             }
             isKept_ = !problem;
@@ -97,7 +97,7 @@ class Replacement {
         return renamed;
     }
     void settle() noexcept { isSettled_ = true; }
-    /// Whether what was there is back. If not, it stays under the name of keptAs().
+    /// Returns true if the previous file is restored. If not, it stays under the name of keptAs().
     [[nodiscard]] bool undo() noexcept {
         isSettled_ = true;
         std::error_code problem;
@@ -119,13 +119,13 @@ class Replacement {
   private:
     TemporaryFile& file_;
     fs::path target_;
-    TemporaryFile old_; ///< what was there
+    TemporaryFile old_; ///< the previous file
     bool isKept_ = false;
     bool isNew_ = false;
     bool isSettled_ = false;
 };
 
-/// Where to rename to (symbolic links are followed); refuses folders, and folders that do not exist.
+/// Returns the path to rename to (follows symbolic links). Refuses folders, and missing parent folders.
 Result<fs::path> targetOf(const fs::path& path) {
     std::error_code problem;
     if (!path.has_filename() || fs::is_directory(path, problem)) {
@@ -256,7 +256,7 @@ Result<void> writeFile(const fs::path& path, const std::function<Result<void>(st
         Result<OutputFile> file = OutputFile::create(path);
         VOXTACT_TRY(file);
         if (Result<void> written = write(file->stream()); !written.ok()) {
-            // What the disk says is the reason for what a writer makes of a stream that failed.
+            // The error of the disk is the reason of a failed stream.
             const Result<void> closed = file->stream() ? Result<void>() : file->close();
             return closed.ok() ? written : closed;
         }

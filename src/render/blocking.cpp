@@ -62,21 +62,20 @@ double secondsSince(Clock::time_point begun) {
     return std::max(std::chrono::duration<double>(Clock::now() - begun).count(), 1e-6);
 }
 
-/// A picture in one piece, or in bands that take about a fifth of a second each. A row in the middle is rendered before
-/// them: it is among those that take longest, while the first rows may have nothing in them. Each band has as many rows
-/// as the slower pace of that and of the band before asks for.
+/// Renders a picture in one piece, or in bands of about a fifth of a second. A row in the middle, usually among the
+/// slowest, is timed first. The rows of each band follow from the slower pace of that row and the previous band.
 class Bands {
   public:
     /// In one piece.
     explicit Bands(VkExtent2D extent) : height_(extent.height), last_(extent.height) {}
-    /// `secondsOfRow`: what a row in the middle took.
+    /// `secondsOfRow`: time of a row in the middle.
     Bands(VkExtent2D extent, double secondsOfRow) : height_(extent.height), secondsOfRow_(secondsOfRow) {
         last_ = std::min(height_, rowsFor(secondsOfRow, kMostTimes));
     }
 
     [[nodiscard]] std::uint32_t first() const noexcept { return first_; }
     [[nodiscard]] std::uint32_t last() const noexcept { return last_; }
-    /// After a band is done. False: it was the last.
+    /// Advances to the next band; returns false after the last.
     [[nodiscard]] bool next() {
         const std::uint32_t rows = last_ - first_;
         const double pace = std::max(secondsOfRow_, secondsSince(begun_) / rows);

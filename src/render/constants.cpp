@@ -54,7 +54,7 @@ void setFunction(PictureConstants& constants, const Scene& scene) {
     constants.tableSize = static_cast<int>(function.table.size());
 }
 
-/// A ray through the box must come to an end.
+/// A ray through the box must end.
 Result<void> checkSamples(const Scene& scene) {
     const Grid& grid = scene.volume->grid();
     const Mat4 world_from_texture = worldFromTexture(grid);

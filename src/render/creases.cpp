@@ -54,7 +54,7 @@ struct CornersOfVertices {
     }
 };
 
-/// The corners of one vertex, in groups: two that share an edge without a crease are in one.
+/// The corners of one vertex, in groups: corners that share an edge without a crease are in the same group.
 class SmoothGroups {
   public:
     SmoothGroups(const MeshView& mesh, std::span<const Vec3> normals, double leastCosine)
@@ -89,7 +89,7 @@ class SmoothGroups {
     [[nodiscard]] bool isSmooth(std::uint32_t triangle, std::uint32_t other) const {
         const Vec3& a = normals_[triangle];
         const Vec3& b = normals_[other];
-        // Rounding may take it out of the range of cosines.
+        // Rounding may leave the range of cosines.
         return std::clamp(a[0] * b[0] + a[1] * b[1] + a[2] * b[2], -1.0, 1.0) >= leastCosine_;
     }
     [[nodiscard]] std::uint32_t find(std::uint32_t corner) const {

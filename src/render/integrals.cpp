@@ -8,7 +8,7 @@ namespace voxtact {
 
 namespace {
 
-/// An opacity of 1 would be an extinction without bound.
+/// An opacity of 1 would have an infinite extinction.
 constexpr double kMostOpacity = 0.999;
 /// Steps of the midpoint rule between two entries.
 constexpr int kParts = 16;

@@ -14,7 +14,7 @@ namespace {
 using shader::PictureConstants;
 using shader::vec4;
 
-/// Voxels of the longest spacing behind a face that are shaded as it is.
+/// Depth of face shading, in voxels of the longest spacing.
 constexpr double kFaceVoxels = 2;
 
 double lengthOf(const Vec3& v) {
@@ -23,7 +23,7 @@ double lengthOf(const Vec3& v) {
 
 /// Converts a direction in the picture to world space: from one point of clip space to another.
 Vec3 wayBetween(const Mat4& world_from_clip, const Vec3& from, const Vec3& to) {
-    // Without the divisions by w, as the shader does: the far plane may be at infinity.
+    // Without divisions by w, like the shader: the far plane may be at infinity.
     const auto row = [&](const Vec3& clip, std::size_t i) {
         return world_from_clip[i] * clip[0] + world_from_clip[4 + i] * clip[1] + world_from_clip[8 + i] * clip[2] +
                world_from_clip[12 + i];

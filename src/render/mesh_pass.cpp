@@ -80,7 +80,7 @@ void drawMesh(const RendererImpl& renderer, VkCommandBuffer commandBuffer, const
     vk.CmdDrawIndexed(commandBuffer, 3 * mesh.triangleCount, 1, 0, 0, 0);
 }
 
-/// Puts constants into the targets' buffer.
+/// Copies constants into the targets' buffer.
 void cmdConstants(const RenderTargetsImpl& targets, VkCommandBuffer commandBuffer, VkDeviceSize offset,
                   std::span<const std::byte> data) {
     const ContextImpl& context = targets.renderer.context;
@@ -106,7 +106,7 @@ std::size_t cmdMeshConstants(VkCommandBuffer commandBuffer, const Scene& scene, 
     return first + count;
 }
 
-/// The images of the mesh pass: what they held goes, or stays for the next group of meshes.
+/// Returns the images of the mesh pass: cleared, or kept for the next group of meshes.
 void cmdBeginImages(const RendererImpl& renderer, VkCommandBuffer commandBuffer, const RenderTargetsImpl& targets,
                     bool first) {
     const ContextImpl& context = renderer.context;

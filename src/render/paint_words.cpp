@@ -13,7 +13,7 @@ namespace voxtact {
 
 namespace {
 
-constexpr VkDeviceSize kOffsets = 256; ///< what BufferRange promises; more than any minStorageBufferOffsetAlignment
+constexpr VkDeviceSize kOffsets = 256; ///< alignment of a BufferRange; more than any minStorageBufferOffsetAlignment
 
 Result<void> describe(PaintWords& paint, const RendererImpl& renderer, const BufferRange& words, std::uint64_t perWord,
                       const PaintName& name) {

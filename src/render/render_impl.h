@@ -17,7 +17,7 @@ inline constexpr VkFormat kMeshDepthFormat = VK_FORMAT_D32_SFLOAT;
 /// Push constants with the index of a mesh.
 inline constexpr VkShaderStageFlags kMeshStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 
-/// Who says which part of a mesh is painted: a pipeline each.
+/// The source of a mesh's paint; each has a pipeline.
 enum class PaintBy : std::uint32_t { Nobody, Fragments, Triangles, Vertices };
 inline constexpr std::size_t kPaintBys = 4;
 
@@ -89,7 +89,7 @@ struct PaintWords {
 
     ContextImpl& context;
     std::shared_ptr<ContextImpl> owner = context.shared_from_this();
-    std::uint64_t room = 0; ///< triangles or vertices that there is something for
+    std::uint64_t room = 0; ///< number of triangles or vertices
     Buffer buffer{};        ///< empty when wrapped
     Buffer staging{};
     bool uploaded = false; ///< recorded, or the caller's own
@@ -126,13 +126,13 @@ struct PictureSetup {
     bool depthTurned = false; ///< the camera's near plane is at depth 1
 };
 
-/// Refuses what cannot be seen. Of a scene that is good otherwise.
+/// Refuses invisible scenes. Expects an otherwise valid scene.
 [[nodiscard]] Result<PictureSetup> setUpPicture(const Scene& scene, const Target& target);
 
 /// The meshes of a scene, by number from 0: its own, if it has one, then the others.
 [[nodiscard]] std::size_t meshCount(const Scene& scene) noexcept;
 [[nodiscard]] const SceneMesh& meshOf(const Scene& scene, std::size_t number) noexcept;
-/// Refuses a pose or colours that cannot be used.
+/// Refuses an unusable pose or colours.
 [[nodiscard]] Result<void> checkMeshLook(const SceneMesh& mesh);
 /// Expects a valid mesh.
 [[nodiscard]] shader::PictureMesh setUpMesh(const Scene& scene, const SceneMesh& mesh);
@@ -143,8 +143,8 @@ struct PictureSetup {
 void setClipPlanes(shader::PictureConstants& constants, const Scene& scene);
 void setLight(shader::PictureConstants& constants, const Scene& scene, const Mat4& world_from_clip);
 
-/// The meshes in front of the background, and their distance; without any the background alone. Records their
-/// constants, too.
+/// Records the meshes in front of the background, their distance and their constants; without meshes, only the
+/// background.
 void cmdMeshPass(const RendererImpl& renderer, VkCommandBuffer commandBuffer, const Scene& scene,
                  const PictureSetup& setup, const Target& target, VkRect2D area);
 
@@ -156,7 +156,7 @@ void beginRendering(const ContextImpl& context, VkCommandBuffer commandBuffer, V
                     bool depthTurned);
 
 [[nodiscard]] Result<void> checkColour(const Colour& colour, const char* what);
-/// Refuses a paint that lacks what it needs. Of a scene that is good otherwise.
+/// Refuses a paint without its inputs. Expects an otherwise valid scene.
 [[nodiscard]] Result<void> checkPaint(const ContextImpl& context, const SceneMesh& mesh);
 [[nodiscard]] PaintBy paintedBy(Paint what) noexcept;
 void setPaint(shader::PictureMesh& constants, const Volume& volume, const MeshPaint& paint);

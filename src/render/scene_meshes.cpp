@@ -53,7 +53,7 @@ shader::PictureMesh setUpMesh(const Scene& scene, const SceneMesh& mesh) {
     std::ranges::copy(transform.texture_from_object, constants.texture_from_object);
     setRows(constants.world_from_object, world_from_floats);
     const Result<Mat4> object_from_world = inverse(linearPart(mesh.world_from_object));
-    if (object_from_world.ok()) { // checkMeshLook() has seen to it
+    if (object_from_world.ok()) { // ensured by checkMeshLook()
         setRows(constants.normal_from_object, transposed(*object_from_world));
     }
     for (std::size_t channel = 0; channel < 3; ++channel) {

@@ -32,7 +32,7 @@ ValueRange domainOf(const RenderTransferFunctionDesc& desc) {
     return tableDomain({ends, desc.opacity.domain, desc.opacity.tableSize});
 }
 
-/// One channel of the colours, sampled as the opacity is.
+/// Samples one channel of the colours like the opacity.
 Result<std::vector<float>> sampleChannel(const RenderTransferFunctionDesc& desc, const ValueRange& domain,
                                          std::size_t channel) {
     if (desc.colours.empty()) {
@@ -75,9 +75,9 @@ Result<void> setFunction(RenderTransferFunctionImpl& function, const RenderTrans
     return {};
 }
 
-/// The greatest of the entries i to i + 2^k - 1 of a table of N at [k * N + i], for all k that it has room for: two
-/// look-ups tell that of any run (Bender and Farach-Colton, "The LCA problem revisited", 2000). Runs that leave the
-/// table end with it.
+/// Returns a sparse table: [k * N + i] is the maximum of entries i to i + 2^k - 1 of a table of N, so two look-ups give
+/// the maximum of any run (Bender and Farach-Colton, "The LCA problem revisited", 2000). Runs are cut at the table's
+/// end.
 std::vector<float> runMaxima(const std::vector<float>& table) {
     std::vector<float> out = table;
     for (std::size_t run = 1; 2 * run <= table.size(); run *= 2) {

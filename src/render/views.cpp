@@ -15,7 +15,7 @@ constexpr double kMargin = 1.02;
 
 constexpr Box kNothing{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
 
-/// The box of a box's corners after a matrix.
+/// Returns the bounding box of a transformed box.
 Box boxOf(const Box& box, const Mat4& matrix) {
     Box out = kNothing;
     for (unsigned corner = 0; corner < 8; ++corner) {

@@ -12,10 +12,10 @@ struct ImDrawData;
 /// Connects panels and frames to a GLFW window.
 namespace voxtact::view {
 
-/// Dear ImGui's context and what it gets of the window's input. One at a time.
+/// Dear ImGui's context, with the window's input. One at a time.
 class Panels {
   public:
-    /// The window's user pointer is the State that keys and dropped files go to. `font` outlives this.
+    /// The window's user pointer is the State that receives keys and dropped files. `font` outlives this.
     Panels(GLFWwindow* window, std::span<const unsigned char> font);
     Panels(const Panels&) = delete;
     Panels& operator=(const Panels&) = delete;
@@ -25,7 +25,7 @@ class Panels {
 /// Returns the draw data of the panels. Valid until the next call.
 [[nodiscard]] const ImDrawData& drawAllPanels(State& state);
 
-/// The window's surface, of which it has one at a time; the one who takes it ends it.
+/// Creates the window's surface, one at a time; the caller destroys it.
 [[nodiscard]] Result<VkSurfaceKHR> makeSurface(const device::Session& session, GLFWwindow* window);
 
 /// Returns the reason of the window system's last refusal.

@@ -16,7 +16,7 @@ namespace voxtact::view {
 
 namespace {
 
-constexpr double kIdle = 0.15;    // s; the host's answers come sooner, they wake it
+constexpr double kIdle = 0.15;    // s; answers of the host wake it earlier
 constexpr double kLoading = 0.03; // s
 constexpr double kBusy = 0.002;   // s
 
@@ -207,7 +207,7 @@ void MainLoop::play() {
     state.takePose(state.document.pose + 1);
 }
 
-/// A picture is made while frames go on, in bands of rows: a large one takes long.
+/// A picture is rendered between frames, in bands of rows: a large one takes long.
 void MainLoop::takeScreenshot() {
     State& state = *state_;
     if (shooting_) {
@@ -287,7 +287,7 @@ void MainLoop::load(std::function<Result<Given>(Progress&)> read, std::optional<
     began_ = Clock::now();
 }
 
-/// A session whose files are gone is asked about first.
+/// First asks about a session whose files are missing.
 void MainLoop::open(Wanted wanted) {
     if (wanted.kind == FileKind::Session && !(state_->blank && desc_->frames)) {
         const std::vector<MissingFile> files = missingFiles(wanted.document.sources, wanted.path);
@@ -332,7 +332,7 @@ Result<void> MainLoop::put(Loaded loaded) {
     state.question = question;
     state.loaded = loading;
     settling_ = untold_ = true;
-    if (!loaded.opened) { // what the command line named
+    if (!loaded.opened) { // sources of the command line
         for (const MeshSource& mesh : state.document.sources.meshes) {
             recent_.add(mesh.path);
         }
@@ -350,7 +350,7 @@ Result<void> MainLoop::refuse(LoadFailure failure) {
     if (failure.error.code == ErrorCode::Cancelled) {
         return {};
     }
-    // With a number of frames nobody may be there to choose.
+    // With --frames, there may be no user to choose.
     const bool ends = state.blank && (desc_->frames || (!failure.opened && !failure.tooLarge));
     if (ends || failure.error.code == ErrorCode::DeviceLost) {
         return failure.error;

@@ -14,10 +14,10 @@ struct GLFWwindow;
 
 namespace voxtact::view {
 
-/// The window from the moment that it has a device until it is closed, or that device is lost.
+/// The window, from the creation of its device until it is closed or the device is lost.
 class MainLoop {
   public:
-    /// All of it outlives this.
+    /// Arguments outlive this.
     MainLoop(GLFWwindow* window, const device::Session& session, State& state, const WindowDesc& desc);
 
     MainLoop(const MainLoop&) = delete;
@@ -31,7 +31,7 @@ class MainLoop {
   private:
     using Clock = State::Clock;
 
-    /// A picture for a file, on its way.
+    /// A pending picture for a file.
     struct Shooting {
         [[nodiscard]] Result<void> make();
         /// Returns true to continue.
@@ -48,7 +48,7 @@ class MainLoop {
     };
 
     [[nodiscard]] bool ended() const;
-    /// Sleeps where there is nothing to do; false where no frame can be made yet.
+    /// Sleeps if idle; returns false if no frame can be drawn yet.
     [[nodiscard]] bool waitForFrame();
     [[nodiscard]] Result<void> turn();
     [[nodiscard]] Result<void> show();
@@ -79,12 +79,12 @@ class MainLoop {
     Clock::time_point began_{}; ///< the loading
     bool idle_ = false;
     bool untold_ = false;             ///< notes of loaded data are pending
-    bool settling_ = false;           ///< loaded data are there, but not completely drawn
+    bool settling_ = false;           ///< loaded data are not completely drawn yet
     std::string opening_;             ///< the file that is being loaded
-    std::unique_ptr<Given> tooLarge_; ///< what a question for a coarser copy is about
+    std::unique_ptr<Given> tooLarge_; ///< document of a question about a coarser copy
     std::optional<FileKind> tooLargeOpened_;
     std::uint32_t coarser_ = 1;
-    std::optional<Wanted> missing_; ///< what a question for missing files is about
+    std::optional<Wanted> missing_; ///< document of a question about missing files
     std::shared_ptr<Shooting> shooting_;
     std::unique_ptr<Loader> loader_; ///< ends first
 };

@@ -12,8 +12,8 @@ namespace voxtact::view {
 Reporter::Seen Reporter::look(const State& state) {
     Seen seen;
     seen.revision = state.answer ? state.answer->revision : 0;
-    seen.measured = state.clearance ? state.clearance->revision : 0;
-    seen.areas = state.clearance && state.clearance->hasAreas();
+    seen.measured = state.distances ? state.distances->revision : 0;
+    seen.areas = state.distances && state.distances->hasAreas();
     seen.chosen = state.document.edit.chosen;
     seen.settled = state.settled();
     seen.error = state.error;
@@ -43,7 +43,7 @@ Result<void> Reporter::write(const State& state) {
     report.answer = state.answer ? &*state.answer : nullptr;
     report.times = &state.times;
     report.document = &state.document;
-    report.clearance = state.clearance ? &*state.clearance : nullptr;
+    report.clearance = state.distances ? &*state.distances : nullptr;
     report.labels = state.labelsOrNull();
     report.device = state.answeredBy;
     if (state.answer) {

@@ -7,7 +7,7 @@
 
 namespace voxtact::view {
 
-/// Writes --report-state when there is something new.
+/// Writes --report-state after changes.
 class Reporter {
   public:
     /// An empty path: nothing is written.
@@ -19,7 +19,7 @@ class Reporter {
     /// Changes that cause a new file.
     struct Seen {
         std::uint64_t revision = 0;
-        std::uint64_t measured = 0; ///< the clearance's revision
+        std::uint64_t measured = 0; ///< revision of the distances
         bool areas = false;         ///< and it has areas
         std::size_t chosen = 0;
         bool settled = false;
@@ -27,7 +27,7 @@ class Reporter {
         std::string question;
         std::optional<std::string> field;
         std::string step;     ///< step of loading
-        bool loaded = false;  ///< it is known how the last loading went
+        bool loaded = false;  ///< statistics of the last loading are known
         double chartFrom = 0; ///< values of the curve's chart
         double chartTo = 0;
         bool saving = false; ///< a picture is being made

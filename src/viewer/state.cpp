@@ -161,7 +161,7 @@ void State::addHole(Hole hole, const Ball& ball) {
     holes_.add(std::move(hole));
 }
 
-/// One after the other, each in the volume as those before it left it; then as many as the edit has.
+/// Drills each hole into the result of the previous ones; then keeps as many as the edit has.
 void State::drillAll(const std::vector<Ball>& balls) {
     for (const Ball& ball : balls) {
         Result<Hole> hole = holeOf(volume.view(), ball, values.lo);
@@ -310,8 +310,8 @@ const MeshAnswer* State::chosenAnswer() const {
     return answer ? answer->of(document.edit.instrument().mesh) : nullptr;
 }
 
-const MeshClearance* State::chosenClearance() const {
-    return clearance ? clearance->of(document.edit.instrument().mesh) : nullptr;
+const MeshClearance* State::chosenDistance() const {
+    return distances ? distances->of(document.edit.instrument().mesh) : nullptr;
 }
 
 void State::takePose(std::size_t number, bool held) {

@@ -45,7 +45,7 @@ struct Given {
 /// Kind of a file for the window.
 enum class FileKind { Volume, Mesh, Poses, Function, Session };
 
-/// A document that is to be shown instead, whose files are not read yet.
+/// A document to show next, whose files are not read yet.
 struct Wanted {
     FileKind kind = FileKind::Session; ///< Volume: the transfer function is the volume's default
     Document document;
@@ -60,10 +60,10 @@ struct Pane {
     Point2 size{0, 0};       ///< points of the window
 };
 
-/// The window is no smaller, in points: then its panels have no room.
+/// Minimum size of the window, in points.
 inline constexpr Extent kLeastWindow{640, 480};
 
-/// A picture that is to be made for a file.
+/// A requested picture for a file.
 struct Shot {
     std::string path;
     Extent extent; ///< pixels
@@ -81,7 +81,7 @@ struct Message {
     bool error = false;
 };
 
-/// A key that was pressed, or repeats, as GLFW numbers it. However many there are in a frame, none is lost.
+/// A pressed or repeated key, by GLFW's number. A frame may have any number of keys.
 struct KeyPress {
     int key = 0;
     bool shift = false;
@@ -89,7 +89,7 @@ struct KeyPress {
     bool held = false; ///< it repeats
 };
 
-/// Refuses an output that is one of these files, by whatever name.
+/// Refuses an output that is one of these files under any name.
 using MayWrite =
     std::function<Result<void>(const std::filesystem::path& output, const std::vector<std::string>& inputs)>;
 
@@ -126,40 +126,39 @@ struct State {
     /// Returns the initial contents with all edits, to be opened again. Leaves nothing to show.
     [[nodiscard]] Given giveBack();
 
-    /// Once a frame, after the panels: whether something changed, and when.
+    /// Call once per frame, after the panels: records changes and their times.
     void update();
-    /// A command that undo takes back: `change` gets the edit. `merge`: see History.
+    /// Executes a command that undo reverts: `change` gets the edit. `merge`: see History.
     void command(const std::function<void(Edit&)>& change, const std::string& merge = {});
-    /// A command of a key or a button that moves by steps: those of one `merge` that follow closely, or while it is
-    /// `held`, are one.
+    /// Executes a step of a key or button. Close or `held` steps with the same `merge` are one command.
     void step(const std::function<void(Edit&)>& change, const std::string& merge, bool held = false);
     void undo();
     void redo();
-    /// Drills a hole of drillRadius, with the image's smallest value. A command; what cannot be is complained of.
+    /// Drills a hole of drillRadius with the image's minimum, as a command. Reports errors.
     void drill(const Vec3& centre);
     /// Takes a pose of the list for the chosen instrument. `held`: see step().
     void takePose(std::size_t number, bool held = false);
     /// Chooses an instrument; ignores an invalid index. This is no command, but moving afterwards is a separate
     /// command.
     void choose(std::size_t number);
-    /// A command: the instrument is no longer there. Nothing for the last one.
+    /// Removes an instrument, as a command. Ignores the last one.
     void remove(std::size_t number);
     /// Answer about the chosen instrument; null without one.
     [[nodiscard]] const MeshAnswer* chosenAnswer() const;
-    [[nodiscard]] const MeshClearance* chosenClearance() const;
+    [[nodiscard]] const MeshClearance* chosenDistance() const;
     /// Since it was made.
     [[nodiscard]] double seconds() const;
     /// True if nothing changed for a moment.
     [[nodiscard]] bool atRest() const;
     /// True if the answer matches the contents, and the fine picture is complete.
     [[nodiscard]] bool settled() const { return answer && answer->revision == revision && fineShare >= 1; }
-    /// Answers of the comparison are waited for.
+    /// Returns true if answers of the comparison are pending.
     [[nodiscard]] bool compares() const {
         return comparing && !(comparison.isOf(document.edit) && comparison.complete());
     }
     void say(std::string text) { status = std::move(text); }
     void complain(std::string text) { error = std::move(text); }
-    /// The values that the curve's chart shows: always a part of the domain.
+    /// Returns the visible values of the curve's chart: a part of the domain.
     [[nodiscard]] ValueRange chartRange() const { return zoomedRange.value_or(document.domain); }
     /// Adds paths dropped on the window, from GLFW.
     void drop(int count, const char* const* paths) { dropped.insert(dropped.end(), paths, paths + count); }
@@ -199,7 +198,7 @@ struct State {
     std::uint64_t revision = 1;        ///< changes with inputs of the answer
     std::uint64_t pictureRevision = 1; ///< changes with inputs of the large picture
     std::optional<LiveAnswer> answer;
-    std::optional<LiveClearance> clearance; ///< of this question or one before
+    std::optional<LiveClearance> distances; ///< of this question or one before
     Comparison comparison;                  ///< of the methods, while `comparing`
     Times times;
     Strip strip; ///< by seconds()
@@ -211,12 +210,12 @@ struct State {
     std::uint64_t frame = 0;
     std::string status;
     std::string error;
-    NotesOf notesOf;                  ///< empty: nothing strikes
-    std::vector<std::string> notes;   ///< of the document as it stands; while `itemHeld` as it was before
+    NotesOf notesOf;                  ///< empty: no warnings
+    std::vector<std::string> notes;   ///< of the current document; while `itemHeld`, of the previous one
     OffersOf offersOf;                ///< empty: none
     std::vector<Offer> offers;        ///< made once for what was opened; none once an instrument moved
     std::optional<Question> question; ///< a dialog, until it is answered
-    std::optional<std::string> field; ///< what stands in the field for a path that has the keyboard; null: none has
+    std::optional<std::string> field; ///< text of the focused path field; null: none
     std::vector<std::string> recent;  ///< files that were opened, the last first
     std::vector<std::string> read;    ///< poses and transfer functions, of all that was opened
     MayWrite mayWrite;                ///< empty: everything may be written
@@ -259,7 +258,7 @@ struct State {
     std::optional<Saving> saving;   ///< while a picture for a file is made
     bool cancelSaving = false;      ///< asked for
     std::optional<Loading> loading; ///< while something is
-    std::optional<Loading> loaded;  ///< how that went which was loaded last
+    std::optional<Loading> loaded;  ///< statistics of the last loading
     bool cancelLoading = false;     ///< asked for
 
   private:

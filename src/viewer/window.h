@@ -18,7 +18,7 @@ namespace voxtact::view {
 /// The connection to the display; one at a time in a process, and on its main thread.
 class Display {
   public:
-    /// Unsupported, with the window system's reason, where there is none.
+    /// Returns Unsupported, with the window system's reason, without a display.
     [[nodiscard]] static Result<std::unique_ptr<Display>> open();
     Display(const Display&) = delete;
     Display& operator=(const Display&) = delete;
@@ -40,19 +40,19 @@ struct WindowDesc {
     MayWrite mayWrite;                          ///< of all that is saved
     NotesOf notes;                              ///< notes on the contents; may be empty
     OffersOf offers;                            ///< buttons below the notes; may be empty
-    /// Told of the notes of all that is opened, besides what the window says.
+    /// Also receives the notes of opened files.
     std::function<void(const std::string& note)> tell;
     std::filesystem::path reportState;   ///< a file to write after each answer; empty: none
-    std::optional<std::uint64_t> frames; ///< to show before it ends by itself; nothing: until it is closed
+    std::optional<std::uint64_t> frames; ///< frames to show; empty: until it is closed
     std::uint32_t mostSide = 0;          ///< voxels along a side of a volume; 0: what the device takes
 
-    /// A device to draw on, with the display's extensions; asked again when that was lost.
+    /// Creates a drawing device with the display's extensions; called again after a loss.
     std::function<Result<std::unique_ptr<device::Session>>()> session;
     /// Initial contents; empty if `opened` is set. An error ends the window.
     std::function<Result<Given>(const device::Session&, Progress&)> first;
-    /// A session that is opened at first, as if it were with the menu.
+    /// Session to open at start, like from the menu.
     std::optional<Wanted> opened;
-    /// Reads the files of a document that is wanted while the window is there.
+    /// Reads the files of a requested document.
     std::function<Result<Given>(const Wanted&, const device::Session&, Progress&)> open;
     /// Returns the default method of a device.
     std::function<MethodChoice(const device::Session&)> method;

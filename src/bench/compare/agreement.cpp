@@ -10,7 +10,7 @@ namespace voxtact::lab {
 
 namespace {
 
-/// Of the method that counts 0 or 1.
+/// Compares a method that counts 0 or 1.
 bool isAny(const NamedCounts& counts) {
     return counts.method == toString(CountingMethod::QueryAny);
 }
@@ -33,8 +33,8 @@ CompareVerdict verdictOn(const std::vector<std::string>& methods) {
     return {.rule = joined(methods, " = "), .members = listed(methods)};
 }
 
-/// Holds counts against each other, pose by pose: how far they are `apart`, and in words. A rule tells the first pose
-/// that breaks it; what is only told, the pose with the largest difference.
+/// Compares counts pose by pose: their difference `apart`, and its text. A rule reports its first violation, an
+/// informational comparison the pose with the largest difference.
 template <class Apart, class Text>
 void comparePoses(std::span<const std::uint32_t> poses, CompareVerdict& verdict, Apart apart, Text text) {
     verdict.compared = poses.size();

@@ -14,7 +14,7 @@
 /// Who must agree with whom, judged from numbers alone: no device, no files.
 namespace voxtact::lab {
 
-/// What one method counted, a number per pose.
+/// Counts of one method, one per pose.
 struct NamedCounts {
     std::string method;
     std::vector<std::uint64_t> counts{};
@@ -30,10 +30,10 @@ struct Disagreement {
 struct CompareVerdict {
     std::string rule{};          ///< "query = atomic = subgroup"
     std::string members{};       ///< of the rule: "query, atomic and subgroup"
-    std::string unit = "poses";  ///< what is counted below
-    bool byRule = false;         ///< compared is what the rule says, not whether counts are equal
-    bool required = true;        ///< a difference is a disagreement; otherwise it is only told
-    std::string unchecked{};     ///< why there was nothing to compare; empty: it was compared
+    std::string unit = "poses";  ///< what the numbers below count
+    bool byRule = false;         ///< tests the rule, not the equality of counts
+    bool required = true;        ///< a difference is a disagreement; otherwise only reported
+    std::string unchecked{};     ///< why nothing was compared; empty: compared
     std::uint64_t compared = 0;  ///< units; 0 where it is unchecked
     std::uint64_t differing = 0; ///< of these
     std::uint64_t largest = 0;   ///< difference of two counts, in fragments
@@ -49,24 +49,24 @@ struct CompareVerdict {
 
 /// Equal on every pose. `poses` holds the numbers of the poses that the counts belong to.
 [[nodiscard]] CompareVerdict judgeEqual(std::span<const NamedCounts> group, std::span<const std::uint32_t> poses);
-/// A hit of the one (not zero) exactly where the other has a fragment.
+/// Touches (not zero) of one exactly where the other has a fragment.
 [[nodiscard]] CompareVerdict judgeHits(const NamedCounts& any, const NamedCounts& exact,
                                        std::span<const std::uint32_t> poses);
-/// Fragments by which a rasteriser may count otherwise than the host, besides half of what the host counts.
+/// Fragments by which a rasteriser may differ from the host, in addition to half of the host's count.
 inline constexpr std::uint64_t kRoundedFragments = 64;
-/// Whether what a rasteriser counts can be what the host counts but for roundings at pixels' centres and between table
-/// entries. `yesNo`: of a method that knows whether there are fragments, and not how many.
+/// Returns true if rounding at pixel centres and between table entries explains the difference of a rasteriser's count
+/// from the host's. `yesNo`: for a method that counts 0 or 1.
 [[nodiscard]] bool explainedByRounding(std::uint64_t raster, std::uint64_t host, bool yesNo = false) noexcept;
 /// In words.
 [[nodiscard]] std::string roundingRule(const std::string& raster, const std::string& host, bool yesNo = false);
 /// That holds on every pose.
 [[nodiscard]] CompareVerdict judgeRounding(const NamedCounts& raster, const NamedCounts& host,
                                            std::span<const std::uint32_t> poses);
-/// Two counts that rounding may tell apart: told, never a disagreement.
+/// Two counts that rounding may separate: reported, never a disagreement.
 [[nodiscard]] CompareVerdict tellDifference(const NamedCounts& one, const NamedCounts& other,
                                             std::span<const std::uint32_t> poses);
 
-/// Of the methods that count all fragments, of the device's rasteriser or the exact ones.
+/// Methods that count all fragments, by the device's rasteriser or exactly.
 [[nodiscard]] std::vector<NamedCounts> countsBy(std::span<const NamedCounts> counts, Coverage coverage);
 /// The places of the poses on which one of the methods counts anything.
 [[nodiscard]] std::vector<std::uint32_t> touchingPoses(std::span<const NamedCounts> counts);
@@ -98,10 +98,10 @@ inline constexpr const char* kFragmentRule = "device's rasteriser and oracle, fr
 /// Every fragment of one side only has its reason, and the device lists as many fragments as it counts.
 [[nodiscard]] CompareVerdict judgeFragments(std::span<const FragmentCheck> checks);
 
-/// In the order in which they are told.
+/// In the order of the report.
 inline constexpr std::array<oracle::Doubt, 4> kDoubts{oracle::Doubt::Coverage, oracle::Doubt::Coordinate,
                                                       oracle::Doubt::Opacity, oracle::Doubt::None};
-/// How many fragments differ for that reason.
+/// Number of fragments that differ for that reason.
 [[nodiscard]] std::uint64_t countOf(oracle::Doubt doubt, std::span<const FragmentCheck> checks);
 
 } // namespace voxtact::lab

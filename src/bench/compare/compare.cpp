@@ -17,7 +17,7 @@ constexpr std::size_t kCountBatch = 1024;
 
 using Fragments = std::vector<oracle::OracleFragment>;
 
-/// One pose; adds the oracle's time.
+/// Checks one pose; adds the oracle's time.
 Result<FragmentCheck> check(FragmentTrace& trace, const Scene& scene, std::uint32_t index,
                             const oracle::Tolerance& tolerance, double& oracleMilliseconds) {
     const Mat4& pose = scene.poses[index];
@@ -51,7 +51,7 @@ Result<FragmentCheck> check(FragmentTrace& trace, const Scene& scene, std::uint3
     return made;
 }
 
-/// The oracle compared with the method that counts what it counts, on the poses that were checked: a part of all.
+/// Compares the oracle with the method that counts the same, on the checked poses.
 void tellOracle(const std::vector<std::uint32_t>& sample, CompareResult& result) {
     const std::vector<NamedCounts> exact = countsBy(result.counts, Coverage::Computed);
     if (exact.empty()) {
@@ -68,8 +68,8 @@ void tellOracle(const std::vector<std::uint32_t>& sample, CompareResult& result)
     result.verdicts.push_back(tellDifference(some, oracle, numbers));
 }
 
-/// As many poses as asked for: spread evenly over those on which a method counts anything, and, where these are too
-/// few, over the others, on which all methods may miss the same.
+/// Returns the requested number of poses: spread evenly over those with a count and, if these are too few, over the
+/// others, on which all methods may miss the same.
 std::vector<std::uint32_t> oraclePoses(std::uint32_t asked, const CompareResult& result) {
     std::vector<std::uint32_t> touching = touchingPoses(result.counts);
     std::vector<std::uint32_t> others;

@@ -6,12 +6,12 @@
 
 namespace voxtact::lab {
 
-/// What grows from point to point; each is a chart of the report.
+/// The quantity of a sweep; each is a chart of the report.
 enum class Sweep { Batch, Triangles, Fragments, Voxels };
 inline constexpr std::array<Sweep, 4> kSweeps{Sweep::Batch, Sweep::Triangles, Sweep::Fragments, Sweep::Voxels};
 [[nodiscard]] const char* toString(Sweep sweep) noexcept;
 
-/// What `voxtact compare` measures, and how long.
+/// Settings of `voxtact compare`.
 struct CompareSettings {
     std::vector<CountingMethod> methods{}; ///< empty: every one
     std::uint32_t oraclePoses = 32;
@@ -22,7 +22,7 @@ struct CompareSettings {
     Loaders load{}; ///< for the sweeps of triangles and voxels
 };
 
-/// How pairs reach the method: each submitted and waited for alone (the paper's way), or batches in flight.
+/// Submission of pairs: each submitted and waited for alone (like the paper), or batches in flight.
 enum class Mode { Sync, Pipelined };
 [[nodiscard]] const char* toString(Mode mode) noexcept;
 
@@ -36,15 +36,15 @@ struct Series {
     std::uint32_t height = 0;
     std::uint32_t triangles = 0;
     std::uint32_t pairs = 0;           ///< of a sample, the same for all methods; fast ones take them more than once
-    std::optional<double> fragments{}; ///< survivors of a pair, on average
+    std::optional<double> fragments{}; ///< passing fragments of a pair, on average
     std::vector<double> wall{};        ///< ms of a batch, a sample each
     std::vector<double> gpu{};         ///< the same; empty where there is no GPU time
     std::array<std::uint32_t, 3> voxels{};
 
-    /// Nothing where the clock stood still.
+    /// Empty if the clock stood still.
     [[nodiscard]] std::optional<double> pairsPerSecond() const;
     [[nodiscard]] std::optional<double> fragmentsPerSecond() const;
-    /// Whether it answers more than yes or no, and is no judge.
+    /// Returns true if it answers more than yes or no, and is no oracle.
     [[nodiscard]] bool counts() const;
 };
 /// Without times, of a method at a work.
@@ -62,7 +62,7 @@ struct MethodEntry {
     std::string filter;
     bool exact = true;      ///< false: zero or not zero
     bool trusted = true;    ///< the self-test's verdict; always of cpu
-    std::string selfTest{}; ///< what it counted, or what is wrong; nothing of cpu
+    std::string selfTest{}; ///< result of its self-test; empty for cpu
 };
 
 /// Everything that the outputs say.
@@ -78,16 +78,16 @@ struct CompareResult {
     std::vector<std::string> notes;
 
     [[nodiscard]] const CompareVerdict* firstFailure() const;
-    /// Whether the rules hold; nothing where there was nothing to hold against each other.
+    /// Returns true if the rules hold; empty if nothing was compared.
     [[nodiscard]] std::optional<bool> agrees() const;
 };
 
-/// The same pairs by every method: verified first, then timed, unless a verdict failed and the run is not to go on.
-/// `result` has the machine.
+/// Verifies, then times the same pairs by every method; a failed verdict ends the run unless it is to go on. `result`
+/// has the machine.
 [[nodiscard]] Result<void> compare(const CompareSettings& settings, const Scene& scene, const device::Session& session,
                                    const Steps& steps, CompareResult& result);
 
-/// An engine for each method that is wanted and supported; the others are told in `result`. Unsupported where there is
+/// Returns an engine per requested and supported method; lists the others in `result`. Returns Unsupported if there is
 /// none.
 [[nodiscard]] Result<Engines> makeMethodEngines(const device::Session& session, const CompareSettings& settings,
                                                 CompareResult& result);
@@ -106,18 +106,17 @@ struct CompareRun {
     CompareResult& result;
     const std::function<void(std::uint64_t)>& step;
 
-    /// Whether a verdict has failed, which ends it.
+    /// Returns true if a verdict failed, which ends the run.
     [[nodiscard]] bool ended() const { return result.firstFailure() != nullptr && !settings.keepGoing; }
 };
 
 /// Counts every pose by every method, and judges the counts.
 [[nodiscard]] Result<void> checkCounts(const CompareRun& run);
 
-/// What a sample of methods is that are timed on the same poses.
+/// The sample of methods that are timed on the same poses.
 struct SampleSize {
-    std::size_t batches = 1; ///< of which it is, for all of them
-    std::vector<std::size_t>
-        passes{}; ///< how often each takes these, so that no sample is too short; 0: it is not timed
+    std::size_t batches = 1;           ///< of which it is, for all of them
+    std::vector<std::size_t> passes{}; ///< repetitions of each, so that no sample is too short; 0: not timed
 };
 /// `milliseconds`: of a batch by each, kNoLimit for one that is not timed; `most`: of a sample; of `all` batches.
 [[nodiscard]] SampleSize sampleSize(std::span<const double> milliseconds, double most, std::size_t all);

@@ -43,7 +43,7 @@ Result<Engines> makeWays(const device::Session& session, const Scene& scene, Loc
     return ways;
 }
 
-/// What the bounds say of one triangle alone.
+/// Returns the certified verdict of a single triangle.
 Result<std::string> certifiedOf(const Engine& certified, const Work& work, std::uint32_t triangle) {
     const MeshData& whole = work.mesh->data;
     MeshPart alone;
@@ -66,7 +66,7 @@ void addTo(std::optional<std::uint64_t>& sum, const std::optional<std::uint64_t>
     }
 }
 
-/// One way on one pose. What it found is kept once.
+/// Runs one method on one pose. Keeps its result once.
 Result<void> findOne(const Engine& engine, const Work& work, bool keepsFound, LocalizeWay& way) {
     Result<Pass> pass = engine.run(work, {});
     VOXTACT_TRY(pass);
@@ -113,7 +113,7 @@ Result<void> findAll(const Engines& engines, const CompareSettings& settings, co
     return {};
 }
 
-/// What the way of most queries found that is not certified: the other ones are the same, or the run fails.
+/// Triangles of the method with the most queries that are not certified: the others agree, or the run fails.
 Result<void> listWrong(const Engine& certified, const Scene& scene, LocalizeResult& result) {
     const Work work(scene);
     for (std::size_t pose = 0; pose < scene.poses.size(); ++pose) {
@@ -129,7 +129,7 @@ Result<void> listWrong(const Engine& certified, const Scene& scene, LocalizeResu
     return {};
 }
 
-/// Counts what each way misses and has too much, against the certified set.
+/// Counts missed and false triangles of each method, compared with the certified set.
 void holdAgainstCertified(LocalizeResult& result) {
     const LocalizeWay& certified = result.ways.back();
     for (LocalizeWay& way : result.ways) {
@@ -193,7 +193,7 @@ io::Table waysTable(const LocalizeResult& result) {
     }));
 }
 
-/// Whether no way found a triangle on any pose: that all agree then says nothing.
+/// Returns true if no method found a triangle on any pose: agreement is then meaningless.
 bool findsNothing(const LocalizeResult& result) {
     return !result.verdict.failed() &&
            std::ranges::all_of(result.ways, [](const LocalizeWay& way) { return way.triangles == 0; });

@@ -8,11 +8,11 @@
 
 namespace voxtact::lab {
 
-/// One way to say which triangles touch, over all poses.
+/// One method to find touched triangles, over all poses.
 struct LocalizeWay {
     std::string name;
     std::string unchecked{}; ///< why it was not run; empty: it was
-    bool byView = true;      ///< finds what the camera sees, which all such ways must agree on
+    bool byView = true;      ///< finds visible triangles, on which all such methods must agree
     std::vector<std::vector<TouchedTriangle>> found{}; ///< of each pose, by triangle
     std::uint64_t triangles = 0;                       ///< found
     std::uint64_t missed = 0;                          ///< certified, and not found
@@ -28,7 +28,7 @@ struct WrongTriangle {
     std::uint32_t pose = 0;
     std::uint32_t triangle = 0;
     std::uint32_t fragments = 0;
-    std::string certified; ///< what the bounds say of it: "possible", or "none", which rounding must explain
+    std::string certified; ///< certified verdict: "possible", or "none", which rounding must explain
 };
 
 struct LocalizeResult {
@@ -45,7 +45,7 @@ struct LocalizeResult {
 [[nodiscard]] Result<void> localize(const device::Session& session, const CompareSettings& settings, const Scene& scene,
                                     LocalizeResult& result, const std::function<void(std::uint64_t)>& step);
 
-/// Fills what follows from what the ways found: missed, wrong, and whether the ways of the view agree.
+/// Fills the derived results: missed and false triangles, and the agreement of the methods of the view.
 void judgeLocalize(LocalizeResult& result);
 
 void writeLocalize(std::ostream& out, io::Format format, const Scene& scene, const LocalizeResult& result);

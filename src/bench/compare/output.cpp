@@ -29,7 +29,7 @@ Json verdictJson(const CompareVerdict& verdict) {
 }
 
 Json fragmentJson(const DifferingFragment& differing) {
-    // What is far away is infinite, and JSON has no word for it.
+    // Far distances are infinite, which JSON cannot express.
     const auto real = [](double value) { return std::isfinite(value) ? Json(rounded(value)) : Json(); };
     return {{"pose", differing.pose},
             {"triangle", differing.fragment.triangle},
@@ -106,7 +106,7 @@ std::string speedOf(const Series& series, const std::string& what) {
            grouped(static_cast<std::uint64_t>(std::llround(*series.pairsPerSecond()))) + " pairs per second)";
 }
 
-/// What was found, in plain English, a sentence each: the agreement, then the speed.
+/// Returns the results as sentences: the agreement, then the speed.
 std::vector<std::string> summarize(const CompareResult& result) {
     std::vector<std::string> sentences;
     for (const CompareVerdict& verdict : result.verdicts) {

@@ -9,11 +9,11 @@ namespace voxtact::lab {
 [[nodiscard]] Json sceneJson(const Scene& scene);
 [[nodiscard]] Json methodJson(const MethodEntry& method);
 [[nodiscard]] Row rowOf(const Series& series);
-/// One row a series.
+/// One row per series.
 [[nodiscard]] io::Table seriesTable(const std::vector<Series>& series);
 [[nodiscard]] Json seriesJson(const std::vector<Series>& series, const Machine& machine);
 
-/// One row a series for CSV and text. Has references to the result.
+/// One row per series for CSV and text. Refers to the result.
 [[nodiscard]] Output compareOutput(const Scene& scene, const CompareResult& result);
 
 } // namespace voxtact::lab

@@ -68,8 +68,7 @@ std::string describe(const Series& series) {
                   " voxels): one would take more than a quarter of the sweep's time");
 }
 
-/// Everything is made and touched once, and says how long a batch takes. One that would take longer than `most` is not
-/// timed, with a note.
+/// Warms everything up once, which estimates the time of a batch. A batch longer than `most` is not timed, with a note.
 Result<void> warmUp(Point& point, double most, CompareResult& result) {
     Work some = point.work;
     some.poses = some.poses.first(std::min<std::size_t>(some.poses.size(), kWarmUpPairs));
@@ -85,7 +84,7 @@ Result<void> warmUp(Point& point, double most, CompareResult& result) {
     return {};
 }
 
-/// Gives the points of one mode and batch the same poses, as many as the slowest can do in `most` ms.
+/// Gives the points of one mode and batch the same poses, as many as the slowest method answers in `most` ms.
 void takeSamePoses(std::span<Point> group, double most, const CompareRun& run) {
     std::vector<double> milliseconds;
     std::ranges::transform(group, std::back_inserter(milliseconds), &Point::batchMilliseconds);
@@ -135,8 +134,8 @@ Result<void> measure(const CompareRun& run, std::vector<Point>& points) {
     return {};
 }
 
-/// The series of points that were measured. A yes or no says nothing of how many: its fragments are those of a
-/// neighbour on the same poses.
+/// Returns the series of the measured points. Methods that count 0 or 1 take the fragments of a neighbour on the same
+/// poses.
 std::vector<Series> seriesOf(std::vector<Point>& points) {
     std::vector<Series> measured;
     for (Point& point : points) {
@@ -229,7 +228,7 @@ void leaveOut(const CompareRun& run, const std::string& what, const Error& why) 
     run.result.notes.push_back("no point of " + what + ": " + why.text);
 }
 
-/// These give a point its size. False where that is not supported, with a note where nothing else says so.
+/// These set the size of a point. They return false if it is unsupported, with a note.
 Result<bool> sizeMesh(const CompareRun& run, std::uint32_t triangles, Swept& point) {
     point.where = std::to_string(triangles) + " triangles";
     point.scene.mesh = std::make_shared<MeshPart>();
@@ -277,7 +276,7 @@ Result<bool> sizeVolume(const CompareRun& run, std::uint32_t quarters, Swept& po
     return true;
 }
 
-/// Those that are supported.
+/// Returns the supported ones.
 Result<std::vector<Swept>> pointsOf(const CompareRun& run, Sweep sweep) {
     using Sizes = std::span<const std::uint32_t>;
     const bool meshes = sweep == Sweep::Triangles;

@@ -30,7 +30,7 @@ LabelData octants(const Grid& grid) {
     return labels;
 }
 
-/// What the engines of a mode are made for: it is ready and outlives them. `session` may be null: none of a device.
+/// Inputs of the engines of a mode, ready for use; they outlive the engines. `session`: null without a device.
 struct BenchParts {
     const VolumePart& volume;
     const MeshPart& mesh;
@@ -100,7 +100,7 @@ Result<void> addDeviceOutputs(const device::Session& session, CountingMethod met
     return {};
 }
 
-/// A method of the device, polled and waited for; nothing: an empty submission.
+/// A method of the device, polled and waited for; empty: an empty submission.
 Result<void> addTicks(const device::Session& session, const std::optional<DetectorDesc>& desc, Engines& engines) {
     for (const Awaiting awaiting : {Awaiting::Poll, Awaiting::Wait}) {
         VOXTACT_TRY(add(engines, makeTickEngine(session, desc, awaiting)));
@@ -200,7 +200,7 @@ Result<void> addBatches(const BenchParts& parts, Engines& engines) {
     return {};
 }
 
-/// What is of one mode alone.
+/// Properties of one mode.
 struct ModeRow {
     BenchDefaults defaults;
     Result<void> (*addEngines)(const BenchParts& parts, Engines& engines);

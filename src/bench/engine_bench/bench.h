@@ -8,12 +8,12 @@
 
 namespace voxtact::lab {
 
-/// What `voxtact bench` can measure of engines.
+/// Measurements of engines by `voxtact bench`.
 enum class BenchMode {
     Certified, ///< the certified answer compared with the view and FCL
-    Outputs,   ///< what each projection and each output costs compared with the bare count
-    Latency,   ///< one pair, now: how long a loop that moves a mesh waits for its answer, tick by tick
-    Batches,   ///< what a batch costs by how many pairs are in it
+    Outputs,   ///< cost of each projection and output, compared with the bare count
+    Latency,   ///< latency of one pair in a loop that moves a mesh
+    Batches,   ///< cost of a batch by its size
 };
 
 struct BenchSettings {
@@ -24,15 +24,15 @@ struct BenchSettings {
     double timeLimit = 60;         ///< seconds of ticks and batches: fewer of them are taken where they do not fit
 };
 
-/// What a mode measures where nothing else was asked for.
+/// Defaults of a mode.
 struct BenchDefaults {
     std::uint32_t number = 256;
     std::uint32_t repetitions = 7;
-    const char* volume = "builtin:head:256"; ///< large, for engines that skip what cannot touch
+    const char* volume = "builtin:head:256"; ///< large, for engines that prune
     std::vector<std::string> meshes{"builtin:scalpel:3068"};
 };
 [[nodiscard]] BenchDefaults defaultsOf(BenchMode mode);
-/// Of the voxels of such a volume, which are opaque.
+/// Default opacity for the voxels of such a volume.
 inline constexpr const char* kDefaultOpacity = "40:0,80:1";
 
 /// One engine on one set of pairs of one mesh. Samples are in the order of the rounds.
@@ -43,21 +43,21 @@ struct BenchRow {
     EngineFacts engine{};
     std::uint64_t pairs = 0;         ///< poses; of a batch
     std::uint64_t contacts = 0;      ///< certified
-    std::uint64_t untouched = 0;     ///< certified too; the rest is possible
+    std::uint64_t untouched = 0;     ///< also certified; the rest is undecided
     std::uint64_t missed = 0;        ///< of the contacts
-    std::uint64_t wrong = 0;         ///< hits where certainly nothing touches
-    std::uint64_t touching = 0;      ///< ticks whose answer is a hit
+    std::uint64_t wrong = 0;         ///< touches on poses that certainly do not touch
+    std::uint64_t touching = 0;      ///< ticks with a touch
     std::uint64_t rounding = 0;      ///< pairs of all samples that the device's rasteriser counts otherwise than cpu
     std::vector<double> wall{};      ///< ms of a tick, from the pose to the answer; of a batch
     std::vector<double> gpu{};       ///< the device's part of a batch; empty where there is none
-    std::vector<double> recording{}; ///< of a tick; empty where nothing is recorded
+    std::vector<double> recording{}; ///< of a tick; empty without recording
     std::vector<double> wallRate{};  ///< pairs per second
     std::vector<double> cpuRate{};   ///< pairs per second of CPU time of the whole process
-    std::vector<double> wallRatio{}; ///< to the sample, of the same round, of the engine that this is held against
+    std::vector<double> wallRatio{}; ///< to the reference engine's sample of the same round
     std::vector<double> cpuRatio{};
 };
 
-/// What was measured on which scene.
+/// Results of a scene.
 struct BenchResult {
     Machine machine;
     std::string volume;

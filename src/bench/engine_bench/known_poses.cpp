@@ -12,37 +12,38 @@ namespace voxtact::lab {
 
 namespace {
 
-/// By a method that knows whether there are survivors and not how many.
+/// Compares a method that counts 0 or 1.
 bool countsNothing(const PairAnswer& answer) {
     return rowOf(answer.method).exactness == Exactness::LowerBound;
 }
 
-/// Whether a rasteriser's answer can be the host's but for roundings at pixels' centres and between table entries.
+/// Returns true if rounding at pixel centres and between table entries explains a rasteriser's difference from the
+/// host.
 bool isNear(const PairAnswer& answer, const PairAnswer& host) {
     const bool any = countsNothing(answer);
     const std::uint64_t counted = any ? (answer.hit ? 1 : 0) : answer.count;
     return explainedByRounding(counted, host.count, any) && answer.hit == (counted > 0);
 }
 
-/// Whether an answer in the view is not the host's.
+/// Returns true if an answer in the view differs from the host's.
 bool differs(const PairAnswer& answer, const PairAnswer& host) {
     return answer.exactness == Exactness::LowerBound ? answer.hit != host.hit : answer.count != host.count;
 }
 
-/// Poses of a mesh with what must be answered there, which is asked for as far as it is needed.
+/// Poses of a mesh with their expected answers, which are computed on demand.
 struct KnownPoses {
     const BenchRun& run;
     std::vector<Mat4> poses;
-    const Engine& certified; ///< what must be answered is what this one and the next say, two engines of the host
+    const Engine& certified; ///< two engines of the host give the expected answers: this one and the next
     const Engine& view;
     std::vector<PoseTruth> truths{}; ///< of the first poses
     double learning = 0;             ///< ms that the last ones took
 
     /// Up to a pose.
     Result<void> learn(std::size_t end);
-    /// One sample of an engine: as many pairs as its row has, from pose `first` on. Its answers are held against what
-    /// must be answered, and what is wrong is the result's disagreement. Returns the sample's ms; its times and what it
-    /// found are in the row if it is `kept`.
+    /// Takes one sample of an engine: as many pairs as its row has, from pose `first` on. Compares its answers with the
+    /// expected ones; an error is the result's disagreement. Returns the sample's ms. If `kept`, adds times and
+    /// findings to the row.
     Result<double> take(const Engine& engine, std::size_t first, bool kept, BenchRow& row);
 };
 
@@ -88,8 +89,8 @@ Result<double> KnownPoses::take(const Engine& engine, std::size_t first, bool ke
 }
 
 constexpr std::uint32_t kBlock = 250; ///< ticks that an engine takes in a turn
-constexpr std::uint32_t kLeadIn = 10; ///< before them, not timed: what the engine before it left in caches is not its
-constexpr std::uint32_t kFewest = 10; ///< of a block that is cut because it takes too long
+constexpr std::uint32_t kLeadIn = 10; ///< before them, not timed: fills the caches after the previous engine
+constexpr std::uint32_t kFewest = 10; ///< of a block that is cut because it is too slow
 constexpr std::uint32_t kWarmUp = 50; ///< ticks of the warm-up
 
 /// The ticks of a turn; fewer where the engine has used up its time.
@@ -220,7 +221,7 @@ Result<void> benchBatches(const BenchRun& run) {
                      asFloats(randomPoses(run.work.volume->data.grid, run.work.mesh->data.view(), run.settings.number,
                                           run.settings.seed)),
                      run.engines[0], run.engines[1]};
-    // The largest batch, its warm-up and what is smaller: a ninth more.
+    // The largest batch, its warm-up and the smaller batches: a ninth more.
     const double mostLearning = run.limit / 4;
     const double longest =
         (run.limit - mostLearning) / (1.2 * (run.settings.repetitions + 1) * static_cast<double>(run.engines.size()));
@@ -231,7 +232,7 @@ Result<void> benchBatches(const BenchRun& run) {
         }
         run.step(1);
     }
-    // After a disagreement nothing more is measured.
+    // Stops after a disagreement.
     std::erase_if(run.result.rows, [](const BenchRow& row) { return row.wall.empty(); });
     if (run.result.disagreement.empty()) {
         noteEnded(run);

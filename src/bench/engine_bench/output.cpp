@@ -10,7 +10,7 @@ namespace voxtact::lab {
 
 namespace {
 
-/// Ticks that a quantile needs, so that one at least is beyond it.
+/// Minimum ticks of a quantile: at least one is beyond it.
 constexpr std::size_t kForP99 = 100;
 constexpr std::size_t kForP999 = 1000;
 
@@ -57,7 +57,7 @@ void addBatchColumns(const BenchRow& row, Row& out) {
         .add("pairs_per_s", median > 0 ? std::optional(1000 * static_cast<double>(row.pairs) / median) : std::nullopt);
 }
 
-/// How a mode is written.
+/// Output of a mode.
 struct ModeOutput {
     void (*addColumns)(const BenchRow& row, Row& out);
     std::vector<const char*> notInText; ///< columns that are left out of the table for people
@@ -99,13 +99,13 @@ std::string shortText(double value) {
     return text.str();
 }
 
-/// "; of the 8 contacts that misses 12.5 %"; nothing where there are none.
+/// Returns "; of the 8 contacts that misses 12.5 %"; empty without contacts.
 std::string shareText(const char* what, std::uint64_t part, std::uint64_t whole) {
     const std::optional<double> percent = percentOf(part, whole);
     return percent ? "; of the " + grouped(whole) + what + shortText(*percent) + " %" : std::string();
 }
 
-/// How the first engine of each scene, yes or no on one thread, does compared with FCL.
+/// Compares the first engine of each scene, yes or no on one thread, with FCL.
 std::vector<std::string> besideFcl(const BenchResult& result) {
     std::vector<std::string> out;
     for (const BenchRow& row : result.rows) {
@@ -136,7 +136,7 @@ std::string ticksText(const BenchRow& row) {
            grouped(row.touching) + " of them touch)";
 }
 
-/// Whether it answers sooner: by p99, or by p50 where one of the two has too few ticks for that.
+/// Returns true if it answers sooner: by p99, or by p50 if one of them has too few ticks.
 bool isSooner(const BenchRow& row, const BenchRow& than) {
     const bool both = std::min(row.wall.size(), than.wall.size()) >= kForP99;
     const auto key = [both](const BenchRow& of) {
@@ -158,7 +158,7 @@ const BenchRow* soonest(const BenchResult& result, const BenchRow& asked, bool h
     return best;
 }
 
-/// What a loop that needs its answer now would take: of each question the soonest of the host and of the device.
+/// Returns the fastest engines of a latency-bound loop: for each question, of the host and of the device.
 std::vector<std::string> soonestTicks(const BenchResult& result) {
     std::vector<std::string> out;
     std::string last;
@@ -177,7 +177,7 @@ std::vector<std::string> soonestTicks(const BenchResult& result) {
     return out;
 }
 
-/// What must be known when reading the times of ticks.
+/// Returns notes on the times of ticks.
 void noteTicks(const BenchSettings& settings, const BenchResult& result, std::vector<std::string>& notes) {
     const auto isCut = [&](const BenchRow& of) { return of.wall.size() < settings.number; };
     if (result.disagreement.empty() && std::ranges::any_of(result.rows, isCut)) {
@@ -198,7 +198,7 @@ void noteTicks(const BenchSettings& settings, const BenchResult& result, std::ve
     }
 }
 
-/// What must be known when reading the times of batches.
+/// Returns notes on the times of batches.
 void noteBatches(const BenchSettings& settings, const BenchResult& result, std::vector<std::string>& notes) {
     const auto isCut = [&](const BenchRow& of) { return of.wall.size() < settings.repetitions; };
     if (result.disagreement.empty() && std::ranges::any_of(result.rows, isCut)) {

@@ -8,7 +8,7 @@
 /// The parts of a run of bench().
 namespace voxtact::lab {
 
-/// What one mesh is measured with.
+/// Inputs of the measurement of one mesh.
 struct BenchRun {
     const BenchSettings& settings;
     Work work; ///< without poses
@@ -28,17 +28,17 @@ struct BenchRun {
 [[nodiscard]] Result<void> benchBatches(const BenchRun& run);
 /// Rounds of all ticks.
 [[nodiscard]] std::uint32_t tickRounds(std::uint32_t ticks);
-/// 1, 10, 100, ... and `most`.
+/// Returns 1, 10, 100, ... and `most`.
 [[nodiscard]] std::vector<std::uint32_t> batchSizes(std::uint32_t most);
 
-/// Whether the mesh touches at a pose, by an engine.
+/// Returns an engine's answer whether the mesh touches at a pose.
 [[nodiscard]] std::function<Result<bool>(const Mat4& pose)> touchesBy(const Engine& engine, const Work& work);
 
-/// Counts in `row` what its engine misses and has too much. Returns where it differs though it must agree, or nothing.
+/// Counts missed and false touches in `row`. Returns the pose of a forbidden difference, or empty.
 [[nodiscard]] std::string judgeEngine(std::span<const PairAnswer> certified, std::span<const PairAnswer> answers,
                                       BenchRow& row);
 
-/// What must be answered at a pose.
+/// The expected answer at a pose.
 struct PoseTruth {
     PairAnswer certified; ///< by the host: in the projection certified
     PairAnswer view;      ///< the same in the view: the count
@@ -46,8 +46,9 @@ struct PoseTruth {
     std::optional<PairAnswer> raster{};
 };
 
-/// What is wrong with an answer, or nothing; `truth` learns what the rasteriser counts from the first method that does.
-/// A certified answer must be the host's; those of a rasteriser must be each other's, and near the host's in the view.
+/// Returns the error of an answer, or empty; `truth` takes the rasteriser's count from the first raster method.
+/// Certified answers must equal the host's; raster methods must agree with each other, and nearly with the host in the
+/// view.
 [[nodiscard]] std::string judgePose(const EngineFacts& engine, const PairAnswer& answer, PoseTruth& truth);
 
 } // namespace voxtact::lab

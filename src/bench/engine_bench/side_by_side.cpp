@@ -18,10 +18,10 @@ constexpr std::size_t kCounting = 1; ///< the engine that the others are held ag
 constexpr double kShortest = 0.03;
 constexpr double kLongest = 1.0;
 constexpr std::size_t kFewestPoses = 8;
-/// Of a sample, should the clock stand still.
+/// Time of a sample if the clock stands still.
 constexpr double kMostPasses = 10'000;
 
-/// What an engine does for a sample.
+/// Work of an engine for a sample.
 struct Sample {
     const Engine& engine;
     Work work; ///< as many of the poses as fit
@@ -107,7 +107,7 @@ Result<double> take(const Sample& sample, std::vector<BenchRow>& rows) {
     return took->wall * 1000;
 }
 
-/// One kind of poses: verified, then timed.
+/// Verifies, then times one kind of poses.
 Result<void> benchKind(const BenchRun& run, const char* kind, const Result<std::vector<Mat4>>& poses) {
     VOXTACT_TRY(poses);
     const Result<std::vector<Sample>> samples = verify(run, run.work.at(*poses), kind);
@@ -147,7 +147,7 @@ Result<void> benchPoses(const BenchRun& run) {
     const std::uint32_t number = run.settings.number;
     VOXTACT_TRY(benchKind(run, "large", randomPoses(grid, mesh, number, run.settings.seed)));
     if (run.settings.mode == BenchMode::Outputs) {
-        return {}; // around the onset of contact there are hardly any survivors to have outputs of
+        return {}; // at the onset of contact, hardly any passing fragment has outputs
     }
     const auto touches = touchesBy(run.engines.front(), run.work);
     return benchKind(run, "onset", onsetPoses(grid, mesh, number, run.settings.seed, touches));

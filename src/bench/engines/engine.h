@@ -13,7 +13,7 @@ struct EngineFacts {
     bool certified = false;    ///< must answer as every other certified engine does
     std::size_t ratioTo = 0;   ///< number of the engine that its times are held against; not after it
     bool sameCounts = false;   ///< must count as that one does
-    std::string recorded{};    ///< of a submission a pose: "each tick", "once"; empty: nothing is
+    std::string recorded{};    ///< recording of the submission per pose: "each tick", "once"; empty: none
     std::string awaited{};     ///< of one: "polled", "waited"
     std::string posesOn{};     ///< of a batch on the device: "host", "device"
 
@@ -22,8 +22,7 @@ struct EngineFacts {
     [[nodiscard]] std::string text() const { return name + " " + projection + " " + question; }
 };
 
-/// Pairs to answer: a mesh at poses against a volume. The parts must be ready
-/// for the engine that is asked.
+/// Pairs to answer: a mesh at poses against a volume. The parts must be ready for the engine.
 struct Work {
     const VolumePart* volume = nullptr;
     const MeshPart* mesh = nullptr;
@@ -41,7 +40,7 @@ struct Work {
     [[nodiscard]] Work at(std::span<const Mat4> others) const { return {*volume, *mesh, others, view}; }
 };
 
-/// How the pairs of a work reach an engine.
+/// Submission of the pairs of a work to an engine.
 struct Feeding {
     std::uint32_t batch = 0;  ///< pairs per submission or call; 0: all
     std::uint32_t frames = 1; ///< submissions in flight; 1: each is waited for
@@ -61,8 +60,7 @@ struct Pass {
     [[nodiscard]] std::vector<std::uint64_t> counts() const;
 };
 
-/// One way to answer. Copies share what answers.
-/// Thread-safety: none; one thread at a time.
+/// An engine to compare. Copies share their implementation. Thread-safety: none; one thread at a time.
 struct Engine {
     EngineFacts facts{};
     std::function<Result<Pass>(const Work& work, const Feeding& feeding)> run{};
@@ -82,9 +80,9 @@ template <class State, class Run> [[nodiscard]] Engine engineOf(EngineFacts fact
 /// `sameCounts` its counts must be that one's.
 [[nodiscard]] Result<void> add(Engines& engines, MadeEngine engine, std::size_t ratioTo = 0, bool sameCounts = false);
 
-/// What an engine answers: yes or no, or the count and the output in addition to it.
+/// The question to an engine: yes or no, or the count and an additional output.
 [[nodiscard]] std::string questionOf(bool yesNo, const Outputs& outputs);
-/// Of a method; the threads are the host's, 0: the device works.
+/// Creates an engine of a method; threads are the host's, 0: the device.
 template <class Desc>
 [[nodiscard]] EngineFacts factsOf(CountingMethod method, const Desc& desc, std::uint32_t threads) {
     return {.name = toString(method),
@@ -96,12 +94,12 @@ template <class Desc>
 
 /// The host.
 [[nodiscard]] MadeEngine makeHostEngine(const Count& question = {}, std::uint32_t threads = 0);
-/// A method of the device; what it is given must outlive it.
+/// Creates an engine of a device method; arguments must outlive it.
 [[nodiscard]] MadeEngine makeDeviceEngine(const device::Session& session, const DetectorDesc& desc);
-/// The same by the blocking convenience, all pairs in one submission, whatever the feeding. With
-/// DetectorDesc::devicePoses they are written to where the device reads them, as floats; that is part of its time.
+/// Like above, by BlockingDetector: all pairs in one submission, for any feeding. With DetectorDesc::devicePoses,
+/// writing the poses as floats for the device is part of its time.
 [[nodiscard]] MadeEngine makeBlockingEngine(const device::Session& session, const DetectorDesc& desc);
-/// How the host learns that the device is done.
+/// Wait of the host for the device.
 enum class Awaiting {
     Poll, ///< it asks again and again
     Wait, ///< it sleeps until the driver wakes it
@@ -115,18 +113,15 @@ enum class Awaiting {
                                         Awaiting awaiting);
 /// FCL, for this mesh against the octree of this volume, which must be there.
 [[nodiscard]] Engine makeFclEngine(const VolumePart& volume, const MeshPart& mesh, FclScalar scalar);
-/// The octree, or nothing and a note that says why there is none. In both cases
-/// the note is what to tell of FCL.
+/// Returns the octree, or empty and a note with the reason. In both cases the note is about FCL.
 [[nodiscard]] std::string makeOctree(VolumePart& volume);
 
-/// The paper's ways to find the triangles that touch, one pose a run: an
-/// occlusion query a triangle, and two with one a leaf of an OBB tree. For this
-/// volume and mesh, which are ready and must outlive them. `tolerance`: what
-/// the device's filter is off by, in stored units.
+/// The paper's ways to find the triangles that touch, one pose a run: an occlusion query a triangle, and two with one a
+/// leaf of an OBB tree. For this volume and mesh, which are ready and must outlive them. `tolerance`: error of the
+/// device's filter, in stored units.
 [[nodiscard]] Result<Engines> makePolygonEngines(const device::Session& session, const VolumePart& volume,
                                                  const MeshPart& mesh, double tolerance);
-/// The same triangles by the fragments of one pass. Unsupported where the
-/// device cannot list them.
+/// Finds the same triangles by the fragments of one pass. Unsupported if the device cannot list them.
 [[nodiscard]] MadeEngine makeFragmentEngine(const device::Session& session);
 
 } // namespace voxtact::lab

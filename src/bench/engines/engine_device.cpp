@@ -18,7 +18,7 @@ namespace {
 struct DevicePairs {
     const device::Session& session;
     Detector detector;
-    /// By batch and frames in flight. Made once: a pass pays for no allocation.
+    /// By batch and frames in flight. Allocated once, outside the times.
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::optional<device::PairPipeline>> pipelines{};
 };
 
@@ -51,7 +51,7 @@ Result<Pass> runOnDevice(DevicePairs& pairs, const Work& work, const Feeding& fe
     return pass;
 }
 
-/// Poses in mapped memory, as floats, where a command buffer reads them: what DetectorDesc::devicePoses asks for.
+/// Poses in mapped memory, as floats, for DetectorDesc::devicePoses.
 struct MappedPoses {
     ContextImpl& context;
     Buffer buffer;
@@ -68,7 +68,7 @@ struct MappedPoses {
         return MappedPoses{context, std::move(*buffer), std::move(*poses)};
     }
 
-    /// The first of them, no more than there is room for. Nothing that reads them may be in flight.
+    /// Writes the first poses, at most the capacity. No reader may be in flight.
     Result<void> write(std::span<const Mat4> matrices) {
         auto* at = static_cast<float*>(buffer.mapped);
         for (const Mat4& pose : matrices) {
@@ -120,7 +120,7 @@ struct Ticking {
     std::optional<Detector> detector{}; ///< none: an empty submission
     std::optional<Results> results{};
     std::optional<MappedPoses> mapped{};             ///< where there is one, the command buffer is recorded once
-    std::optional<device::TimedCommands> commands{}; ///< last: it waits for what uses the others
+    std::optional<device::TimedCommands> commands{}; ///< last: waits for users of the others
     bool recorded = false;
 };
 
@@ -134,7 +134,7 @@ Result<void> record(Ticking& loop, const Work& work, const BatchItem& item, Use 
     return loop.commands->end();
 }
 
-/// Nothing is in flight afterwards, not after an error either.
+/// Nothing is in flight afterwards, even after an error.
 Result<void> submitAndAwait(Ticking& loop) {
     Result<void> done = loop.commands->submit();
     if (done.ok()) {

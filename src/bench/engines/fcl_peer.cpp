@@ -56,8 +56,8 @@ void collide(const Model<double>& mesh, const fcl::Transform3d& world_from_mesh,
     fcl::collide(&mesh, world_from_mesh, &octree, world_from_tree, request, result);
 }
 
-/// What fcl::collide() does of these two. It would bring all pairs of shapes with it, of which libfcl has those of
-/// double alone: a minute of compiling.
+/// The part of fcl::collide() for these two. The whole function would compile all pairs of shapes, which libfcl has
+/// only for double: a minute of compilation.
 void collide(const Model<float>& mesh, const fcl::Transform3f& world_from_mesh, const fcl::OcTreef& octree,
              const fcl::Transform3f& world_from_tree, const fcl::CollisionRequestf& request,
              fcl::CollisionResultf& result) {

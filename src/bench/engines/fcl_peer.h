@@ -28,26 +28,26 @@ struct FclCells {
 
 enum class FclScalar { Float, Double };
 
-/// How FCL looks for the first contact on the way.
+/// FCL's method to find the first contact of a motion.
 enum class FclOnTheWay {
     Poses,   ///< at a number of poses, with the first and the last: CCDC_NAIVE
-    Advance, ///< conservative advancement; -1 where it is not offered
+    Advance, ///< conservative advancement; -1 if unavailable
 };
 
-/// Three numbers per vertex, three vertices per triangle. What is made of one needs it no longer.
+/// Three numbers per vertex, three vertices per triangle. Objects made of it copy it.
 struct FclMesh {
     std::span<const double> positions;
     std::span<const std::uint32_t> indices;
 };
 
-/// Whether a mesh (BVHModel of OBBRSS) collides with an octree at a rigid pose. One thread.
+/// Tests whether a mesh (BVHModel of OBBRSS) collides with an octree at a rigid pose. One thread.
 using FclPeer = std::function<bool(const FclMatrix& world_from_object)>;
 /// The distance of the two as FCL has it, in double: -1 where they collide.
 using FclDistance = std::function<double(const FclMatrix& world_from_object)>;
 /// The parameter of the first contact on the screw motion from one pose to another, in double; 1 where there is none.
 using FclMotion = std::function<double(const FclMatrix& from, const FclMatrix& to, FclOnTheWay how, unsigned poses)>;
 
-/// An octree, which what is made of it shares.
+/// An octree, shared by the objects made of it.
 struct FclVolume {
     std::string version; ///< "FCL 0.7.0"
     std::function<FclPeer(const FclMesh& mesh, FclScalar scalar)> peer;

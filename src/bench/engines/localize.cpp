@@ -32,7 +32,7 @@ struct Localizer::State {
     ContextImpl& context;
     std::shared_ptr<ContextImpl> owner = context.shared_from_this();
     std::optional<ViewPass> pass{};
-    std::optional<Results> results{}; ///< for the transform and the timestamps; counts nothing
+    std::optional<Results> results{}; ///< for the transform and the timestamps; does not count
     Owned<VkQueryPool> queries{};
     std::optional<Submitter> submitter{};
 };
@@ -54,7 +54,7 @@ namespace {
 
 /// Queries of a submission.
 constexpr std::uint32_t kQueries = 4096;
-/// What prepareResults() and publishResults() are to do: nothing about queries.
+/// Plan for prepareResults() and publishResults(): no queries.
 constexpr DetectorDesc kDesc{.method = CountingMethod::Atomic, .boundary = Boundary::Range};
 
 /// Refuses a batch that is not of one pair.
@@ -64,12 +64,11 @@ Result<void> checkOnePair(const ContextImpl& context, const Batch& batch, const 
     return *pairs == 1 ? Result<void>() : refuse(lab::concat(what, " one pair, the batch has ", *pairs));
 }
 
-/// How much larger boxes are made, in addition to what the device's float arithmetic can be off by, relative to
-/// coordinates.
+/// Margin of boxes in addition to the error of the device's float arithmetic, relative to coordinates.
 constexpr double kVoxels = 0.5;
 constexpr double kFloatError = 0x1p-18;
 
-/// Whether a node of the tree may touch, by the margins around its bounds in texture space.
+/// Tests whether a node of the tree may touch, with margins around its bounds in texture space.
 bool mayTouch(const ObbNode& node, const Mat4& texture_from_object, const Grid& grid, const LocalizeAids& aids,
               bool bricks) {
     // But for rounding, which is far below the margin.
@@ -121,7 +120,7 @@ Result<void> checkAids(const BatchItem& item, Localization way, const LocalizeAi
     return {};
 }
 
-/// One submission: the survivors of at most kQueries triangles.
+/// One submission: the passing fragments of at most kQueries triangles.
 Result<std::vector<std::uint64_t>> count(Localizer::State& localizer, const Batch& batch,
                                          std::span<const std::uint32_t> triangles,
                                          std::optional<double>& gpuMilliseconds) {
@@ -238,7 +237,7 @@ Result<void> record(FragmentTrace::State& trace, VkCommandBuffer commandBuffer, 
     return {};
 }
 
-/// One try: the number of survivors, of which the list may hold fewer.
+/// One attempt: returns the number of passing fragments; the list may hold fewer.
 Result<std::uint32_t> run(FragmentTrace::State& trace, const Batch& batch) {
     const Result<VkCommandBuffer> commandBuffer = trace.submitter->begin();
     VOXTACT_TRY(commandBuffer);

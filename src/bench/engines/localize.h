@@ -21,15 +21,15 @@ enum class Localization {
 
 [[nodiscard]] const char* toString(Localization way) noexcept;
 
-/// What the ways that go through a tree need of the host.
+/// Host inputs of the methods that traverse a tree.
 struct LocalizeAids {
     const ObbTree* tree = nullptr; ///< of the batch's mesh; for Leaf and LeafBricks
     /// For LeafBricks: false only where no sample of a box of texture space, within [0,1]^3, is opaque.
     std::function<bool(const Box& texture)> mayBeOpaque;
 };
 
-/// Finds the triangles of a pair that have survivors by the projection `view`, one query per triangle. What the finer
-/// ways to localise are compared with. Blocks. Needs occlusionQueryPrecise.
+/// Finds the triangles of a pair with passing fragments in the projection `view`, one query per triangle. The reference
+/// for the finer methods. Blocks. Needs occlusionQueryPrecise.
 ///
 /// The trees are asked in double about what the device does in float: the volume's box, and those of the nodes, are
 /// made larger by half a voxel. A triangle thinner than the rasteriser's sub-pixels can have a fragment whose
@@ -52,15 +52,15 @@ class Localizer {
     std::shared_ptr<State> state_;
 };
 
-/// Lists the surviving fragments of a pair, as the device's rasteriser makes them: what a count is checked with,
-/// fragment by fragment, against another rasteriser. Blocks. Needs geometryShader and fragmentStoresAndAtomics.
-/// Copies share it. Thread-safety: none; one thread at a time.
+/// Lists the passing fragments of the device's rasteriser for a pair, to compare counts with another rasteriser
+/// fragment by fragment. Blocks. Needs geometryShader and fragmentStoresAndAtomics. Copies share it. Thread-safety:
+/// none; one thread at a time.
 class FragmentTrace {
   public:
     [[nodiscard]] static Result<FragmentTrace> create(const Context& context, Filter filter, const QueueAccess& queue);
 
-    /// The survivors of a batch of one pair, sorted by triangle, y and x. OutOfMemory when there are more than the
-    /// device can list.
+    /// Returns the passing fragments of a batch of one pair, sorted by triangle, y and x. OutOfMemory if there are more
+    /// than the device can list.
     [[nodiscard]] Result<std::vector<shader::TracedFragment>> survivors(const Batch& batch);
 
     struct State;

@@ -168,9 +168,9 @@ void linkNodes(std::vector<ObbNode>& nodes) {
     }
 }
 
-/// Of the sums below, relative to the sum of the magnitudes of what goes into them: some thirty roundings of 2^-53.
+/// Error of the sums below, relative to the sum of the magnitudes of their terms: some thirty roundings of 2^-53.
 constexpr double kError = 0x1p-46;
-/// Apart from what underflows.
+/// Except for underflow.
 constexpr double kTiny = 1e-290;
 
 /// A parallelepiped and a box along the axes, relative to the box's centre.
@@ -196,7 +196,7 @@ struct Meeting {
         }
     }
 
-    /// Whether a plane across `axis`, whose own rounding does not matter, is certainly between them.
+    /// Returns true if a plane across `axis`, whose own rounding does not matter, certainly separates them.
     [[nodiscard]] bool separatedAlong(const dvec3& axis) const {
         const dvec3 across = glm::abs(axis * edges);
         const double reach =

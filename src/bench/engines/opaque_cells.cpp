@@ -15,7 +15,7 @@ namespace voxtact::lab {
 
 namespace {
 
-/// Of a cosine: what rounding in a file's header leaves.
+/// Error of a cosine by rounding in a file's header.
 constexpr double kRightAngle = 1e-5;
 
 /// Columns: the unit vectors along the axes of a grid.

@@ -28,14 +28,13 @@ template <class Part, class Place> [[nodiscard]] Result<void> put(Result<Part> m
     return {};
 }
 
-/// How the data that options name get here: a path, or builtin:NAME.
+/// Source of data in options: a path, or builtin:NAME.
 struct Loaders {
     std::function<Result<VolumeData>(const std::string& source)> volume;
     std::function<Result<MeshData>(const std::string& source)> mesh;
 };
 
-/// A volume and how it is seen: in host memory, and what the engines have made
-/// of it.
+/// A volume with its opacity: in host memory, and the objects of the engines.
 struct VolumePart {
     std::string name; ///< a path, or builtin:NAME
     VolumeData data;
@@ -97,15 +96,14 @@ class DeviceStay {
 /// `count` numbers below `total`, spread evenly; all of them when there are no more.
 [[nodiscard]] std::vector<std::uint32_t> spreadEvenly(std::uint32_t count, std::uint32_t total);
 
-/// As --opacity takes them: "40:0,80:1".
+/// In the form of --opacity: "40:0,80:1".
 [[nodiscard]] std::string opacityText(std::span<const ControlPoint> points);
 
-/// Makes what the host engine needs, once.
+/// Creates the host engine's objects, once.
 [[nodiscard]] Result<void> makeHost(VolumePart& volume);
-/// Uploads what the methods of the device need, labels too where there are any.
+/// Uploads the objects of device methods, including labels, if any.
 [[nodiscard]] Result<void> upload(const device::Session& session, const VolumeOptions& options, VolumePart& volume);
-/// Both. LimitExceeded where the volume is beyond what the device can do,
-/// InvalidArgument (--tf-size) where the table is.
+/// Does both. Returns LimitExceeded if the volume exceeds the device, InvalidArgument (--tf-size) if the table does.
 [[nodiscard]] Result<void> makeReady(const device::Session& session, const VolumeOptions& options, VolumePart& volume);
 /// For the host engine, and for the device unless `session` is null.
 [[nodiscard]] Result<void> makeReady(const device::Session* session, MeshPart& mesh);
@@ -113,7 +111,7 @@ class DeviceStay {
 [[nodiscard]] Result<void> makeReady(const device::Session& session, const Scene& scene,
                                      const VolumeOptions& options = {});
 
-/// Refuses a viewport beyond what the device or the host can do.
+/// Refuses a viewport beyond the limits of device or host.
 [[nodiscard]] Result<void> checkViewport(const device::Session& session, const VkExtent2D& size);
 
 } // namespace voxtact::lab

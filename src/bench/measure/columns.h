@@ -14,12 +14,12 @@
 #include <optional>
 #include <span>
 
-/// What text, CSV and JSON are made of.
+/// Values and columns of text, CSV and JSON.
 namespace voxtact::lab {
 
 using Json = nlohmann::ordered_json;
 
-/// A value of all formats. Real numbers are rounded(); an optional that has nothing is nothing.
+/// A value of all formats. Real numbers are rounded(); an empty optional is empty.
 template <class Value> [[nodiscard]] io::Cell cellOf(const Value& value) {
     if constexpr (std::floating_point<Value>) {
         return rounded(value);
@@ -35,7 +35,7 @@ template <class Value> [[nodiscard]] io::Cell cellOf(const std::optional<Value>&
 /// Of one thing: null where there are no samples.
 [[nodiscard]] Json spreadJson(const std::vector<double>& samples);
 
-/// What a value is called in text and CSV, and in JSON; nothing: it is not there.
+/// Name of a value in text and CSV, and in JSON; empty: omitted.
 struct Names {
     std::string column;
     std::string member;
@@ -48,12 +48,12 @@ struct Names {
 class Row {
   public:
     template <class Value> Row& add(const Names& names, const Value& value) { return addCell(names, cellOf(value)); }
-    /// Nothing where it is empty.
+    /// Empty if the text is empty.
     Row& addSome(const Names& names, const std::string& text) {
         return add(names, text.empty() ? std::nullopt : std::optional(text));
     }
-    /// Columns for some of a spread, by what follows the name in theirs: "_p10", "_p90", "_min", "_max"; of the
-    /// median "_median" or nothing. One object of everything in JSON. Nothing where there are no samples.
+    /// Columns of a spread, by the suffix of their names: "_p10", "_p90", "_min", "_max"; for the median "_median" or
+    /// none. One object in JSON. Empty without samples.
     Row& add(const Names& names, const std::vector<double>& samples, std::initializer_list<const char*> parts);
     /// In columns alone.
     template <class Value> Row& column(const char* name, const Value& value) { return add({name, ""}, value); }
@@ -81,7 +81,7 @@ template <class Things, class RowOf>
 }
 /// Rows that have the same columns. `none`: a row for the columns' names, where there may be no rows.
 [[nodiscard]] io::Table tableOf(std::vector<io::NamedCells> rows, const io::NamedCells& none = {});
-/// The same without some of the columns, to fit on a wide terminal.
+/// Like above without some columns, to fit on a wide terminal.
 [[nodiscard]] io::Table tableWithout(std::span<const char* const> columns, std::vector<io::NamedCells> rows);
 template <class Things, class JsonOf> [[nodiscard]] Json arrayOf(const Things& things, JsonOf jsonOf) {
     Json array = Json::array();
@@ -93,21 +93,21 @@ template <class Things, class JsonOf> [[nodiscard]] Json arrayOf(const Things& t
 
 [[nodiscard]] Json machineJson(const Machine& machine);
 
-/// What was measured, for all formats.
+/// Results for all formats.
 struct Output {
     const Machine& machine;
     /// Of JSON, between those that every output begins with, of the machine, and the notes, which it ends with.
     Json members;
     io::Table table{};                    ///< of CSV and text
     std::string about{};                  ///< a comment behind the table; may be empty
-    std::vector<std::string> sentences{}; ///< what was found, in plain English; comments of CSV and text
+    std::vector<std::string> sentences{}; ///< results as sentences; comments of CSV and text
     std::vector<std::string> notes{};     ///< in addition to the machine's
 };
 
 [[nodiscard]] Json jsonOf(const Output& output);
 /// The table, then the findings.
 void writeOutput(std::ostream& out, io::Format format, const Output& output);
-/// Comment lines: the sentences, what it was measured on, and the notes.
+/// Comment lines: the sentences, the machine, and the notes.
 void writeFindings(std::ostream& out, const Output& output);
 
 } // namespace voxtact::lab

@@ -23,7 +23,7 @@ std::string cpuName() {
     return "unknown";
 }
 
-/// Fills what the driver says of itself.
+/// Fills the driver's properties.
 VkDriverId describeDriver(const device::Session& session, Machine& machine) {
     const auto getProperties =
         device::instanceFunction<PFN_vkGetPhysicalDeviceProperties2>(session, "vkGetPhysicalDeviceProperties2");

@@ -11,21 +11,21 @@
 
 namespace voxtact::lab {
 
-/// What made the numbers, and what makes them again.
+/// Provenance of the numbers: machine and command.
 struct Provenance {
     std::string version;
     std::string gitRevision;
     std::string command;
 };
 
-/// How far long work is.
+/// Progress of long work.
 struct Steps {
     std::function<void(std::uint64_t total)> begin;     ///< before the first
     std::function<void(std::uint64_t steps)> step;      ///< called with the number of steps done since the last call
     std::function<void(const std::string& what)> doing; ///< what the following steps are
 };
 
-/// What the numbers were measured on.
+/// The machine of the numbers.
 struct Machine {
     Provenance provenance;
     std::string device;
@@ -37,7 +37,7 @@ struct Machine {
     std::uint32_t cpuThreads = 0;
     std::string filter;             ///< the arithmetic of the hardware filter, in words
     double filterError = 0;         ///< by which it is off, in stored units, in addition to its weights
-    std::vector<std::string> notes; ///< what to know when reading the times
+    std::vector<std::string> notes; ///< notes on the times
 };
 
 /// Without a device.

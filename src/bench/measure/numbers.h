@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-/// What is made of samples, and how numbers are written.
+/// Statistics of samples, and formats of numbers.
 namespace voxtact::lab {
 
 /// Repeated measurements of one thing.
@@ -23,21 +23,21 @@ struct Spread {
 /// Linear between the two nearest ranks. `samples` must not be empty.
 [[nodiscard]] Spread spreadOf(std::vector<double> samples);
 [[nodiscard]] double medianOf(const std::vector<double>& samples);
-/// What `part` of the samples, 0..1, are below; linear too.
+/// Returns the quantile `part`, 0..1, of the samples; linear, too.
 [[nodiscard]] double quantileOf(std::vector<double> samples, double part);
 
-/// Where the median of the distribution that samples come from is, whatever that distribution is.
+/// A confidence interval of the median, for any distribution of the samples.
 struct MedianInterval {
     double low = 0;
     double high = 0;
-    double confidence = 0; ///< reached, 0..1: at least what was asked for
+    double confidence = 0; ///< reached, 0..1: at least the requested one
 };
 
 /// From the smallest interval between two samples of mirrored ranks whose confidence, by the sign test, is
 /// `confidence`. Nothing where there are too few samples: six for 0.95.
 [[nodiscard]] std::optional<MedianInterval> medianInterval(std::vector<double> samples, double confidence);
 
-/// Of a clock that may not tell.
+/// Formats a time that may be unknown.
 inline void keep(const std::optional<double>& time, std::vector<double>& samples) {
     if (time) {
         samples.push_back(*time);
@@ -50,7 +50,7 @@ inline void keep(const std::optional<double>& time, std::vector<double>& samples
 /// Said where it makes agreement a small thing.
 inline constexpr const char* kNothingTouches = "nothing touches on any pose: that all agree says little";
 
-/// Six significant digits: more would be noise. 0 for what is not finite.
+/// Six significant digits: more would be noise. 0 if not finite.
 [[nodiscard]] double rounded(double value);
 /// Three significant digits, without an exponent.
 [[nodiscard]] std::string shortNumber(double value);

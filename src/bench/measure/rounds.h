@@ -20,8 +20,8 @@ struct Turn {
 
 /// Something that is timed: an engine with its work, a frame, a pass.
 struct Timed {
-    /// Runs once, checks what comes out, and keeps the sample where it belongs. Returns the sample's ms; kNoLimit of a
-    /// warm-up: it takes too long to be timed at all.
+    /// Runs once, checks the result, and stores the sample. Returns the sample's ms; kNoLimit for a warm-up that is too
+    /// slow to be timed.
     std::function<Result<double>(const Turn& turn)> take;
     /// ms of its samples, of which there is one at least: it is left out once another would not fit.
     double limit = kNoLimit;
@@ -29,7 +29,7 @@ struct Timed {
     bool finished = false;
 };
 
-/// How things are timed: a sample of each in turn, and again, so that what else the machine does falls on all alike.
+/// Times things in rounds: a sample of each in turn, so that other load affects all alike.
 struct Rounds {
     std::uint32_t repeats = 1;
     bool warmUp = false;     ///< a round before the others
@@ -38,12 +38,11 @@ struct Rounds {
     /// Rounds after which the things are what they were, poses for example. Every other round is taken backwards, and
     /// so that the same one comes the other way round next time. 0: no round is.
     std::uint64_t cycle = 0;
-    std::function<void(std::uint64_t rounds)> step{}; ///< how many have passed since, taken or not
-    std::function<bool()> stop{}; ///< asked before each sample: whether to take no further one, a check having failed
+    std::function<void(std::uint64_t rounds)> step{}; ///< number of rounds since, taken or not
+    std::function<bool()> stop{}; ///< called before each sample: true ends the rounds, after a failed check
 };
 
-/// Takes the rounds of things that were verified, until nothing is left to take. Returns how many were taken, without
-/// the warm-up.
+/// Takes rounds of verified things until no sample is left. Returns the number of rounds, without the warm-up.
 [[nodiscard]] Result<std::uint64_t> takeRounds(std::span<Timed> things, const Rounds& rounds);
 
 } // namespace voxtact::lab

@@ -20,14 +20,14 @@ namespace voxtact::lab {
 
 namespace {
 
-/// What an embedder's frame does.
+/// Work of an embedder's frame.
 enum class FramePart {
     Rendering, ///< a picture of the volume and of the mesh in it
     Detection, ///< one pair, by one method
     Both,      ///< in one submission; the method `cpu` works while the picture is made
 };
 
-/// A frame that is done. Times in ms; nothing where the clock cannot tell, or the part is not in the frame.
+/// A completed frame. Times in ms; empty if unknown, or the part is not in the frame.
 struct FrameSample {
     double wall = 0;             ///< from the submission to the end of the wait
     std::optional<double> gpu{}; ///< of the detection where there is nothing else; around everything that was submitted
@@ -42,10 +42,10 @@ enum : std::uint32_t { kFrameBegins, kPictureBegins, kMeshDone, kVolumeDone, kFr
 constexpr ImageUse kDrawnTo{VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT,
                             VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
 
-/// What is timed of each method.
+/// Timed parts of each method.
 constexpr std::array<FramePart, 2> kFrameParts{FramePart::Detection, FramePart::Both};
 
-/// A scene on the device and the host, with what was verified of it.
+/// A scene on the device and the host, with its verified counts.
 struct PaperWork {
     const PaperInput& input;
     std::vector<NamedCounts> counts; ///< by method
@@ -77,7 +77,7 @@ struct PaperFrames {
     /// The parts of the scene must be ready, the volume with bricks.
     Result<void> create();
     Result<void> createPicture();
-    /// Makes what a method needs; frames with it may then be made.
+    /// Creates the objects of a method for frames.
     Result<void> add(CountingMethod method);
     /// One frame, with the mesh at a pose. The method is not examined where nothing is detected.
     Result<FrameSample> take(FramePart part, CountingMethod method, const Mat4& world_from_object);
@@ -116,7 +116,7 @@ Result<void> PaperFrames::record(FramePart part, CountingMethod method, const Ma
     const Result<VkCommandBuffer> buffer = commands->begin();
     VOXTACT_TRY(buffer);
     commands->cmdStamp(kFrameBegins);
-    // What the last frame drew is lost, and was read by nobody.
+    // Discards the output of the last frame, which nobody reads.
     barrier(session.context.impl(), *buffer, image->image.get(),
             {VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, 0, VK_IMAGE_LAYOUT_UNDEFINED}, kDrawnTo);
     if (part != FramePart::Detection) {

@@ -165,7 +165,7 @@ void addPaperTables(const PaperResult& result, std::vector<Section>& sections) {
     }
 }
 
-/// The paper's own, as it prints them, and what else was measured.
+/// The paper's columns, as printed, and further ones.
 void addOthers(const PaperResult& result, std::vector<Section>& sections) {
     std::string title = "The paper's own tables, average ms per frame as printed";
     for (std::size_t i = 0; i < published::kHardware.size(); ++i) {

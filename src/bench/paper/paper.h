@@ -12,8 +12,7 @@
 /// 2) made again.
 namespace voxtact::lab {
 
-/// What the paper publishes of its own measurements, on its own hardware (OpenGL). It does not say with which viewport,
-/// ray step or number of samples.
+/// The paper's own measurements, on its hardware (OpenGL), without viewport, ray step or number of samples.
 namespace published {
 /// A line of Table 1 or 2: average ms per frame.
 struct TableLine {
@@ -85,10 +84,10 @@ struct PaperColumns {
     std::vector<double> total{};     ///< a frame and the detection in one submission
 };
 
-/// What detection costs of what rendering does, percent: the paper's way to say it, by their times alone. A sample each
-/// round; none where one of the two is not known.
+/// Time of detection relative to rendering, percent, like in the paper. A sample per round; none if one of the times is
+/// unknown.
 [[nodiscard]] std::vector<double> collisionPercent(const PaperColumns& columns);
-/// What detection adds to a frame, percent of the frame without it. A sample each round, of the two frames of it.
+/// Increase of a frame's time by detection, percent. A sample per round, from its two frames.
 [[nodiscard]] std::vector<double> overheadPercent(const PaperColumns& columns);
 
 /// A line of the tables: a counting method in a scene.
@@ -142,12 +141,11 @@ struct PaperResult {
 /// Of the intervals for medians, at least.
 inline constexpr double kConfidence = 0.95;
 
-/// The median of what detection adds to a frame, percent: "2.6", or "noise" where it is below 0, since detection adds
-/// no less than nothing. Then the interval that holds it, or that there are too few samples for one. At least one
-/// sample.
+/// Formats the median overhead of detection, percent: "2.6", or "noise" if it is below 0, and its interval, if there
+/// are enough samples. Expects at least one sample.
 [[nodiscard]] std::string overheadText(const std::vector<double>& percents);
 
-/// What was found, in plain English, a sentence each: the agreement, then what detection adds, then the rest.
+/// Returns the results as sentences: the agreement, then the overhead of detection, then the rest.
 [[nodiscard]] std::vector<std::string> paperSummary(const PaperResult& result);
 /// The whole result as one object.
 [[nodiscard]] nlohmann::ordered_json paperJson(const PaperResult& result);

@@ -30,8 +30,8 @@ struct PaperVolume {
     double share; ///< of the file's voxels that this ramp makes opaque at the threshold
 };
 
-/// What the ramps make opaque of the two files, counted once: an MR head of the studyforrest project, resampled, and
-/// the bonsai of OpenSciVis, pairs of its slices averaged.
+/// Shares of opaque voxels in the two files under the ramps: an MR head of the studyforrest project, resampled, and the
+/// bonsai of OpenSciVis, pairs of its slices averaged.
 constexpr double kHeadShare = 0.1495;
 constexpr double kBonsaiShare = 0.0743;
 constexpr std::array<PaperVolume, 2> kVolumes{
@@ -54,7 +54,7 @@ constexpr std::uint32_t kTries = 64;
 /// Of the side of a volume: how far beyond it randomPoses() puts a vertex, and a little.
 constexpr double kBeyond = 0.11;
 
-/// Where a volume or mesh of the paper comes from.
+/// Source of a volume or mesh of the paper.
 struct Source {
     std::string path; ///< or builtin:NAME
     std::string name; ///< a file's alone

@@ -53,7 +53,7 @@ struct Found {
     double median = 0;
 };
 
-/// The rows with the least and the most of something; nothing where no row has it.
+/// Returns the rows with the minimum and maximum of a value; empty if no row has it.
 template <class Samples> std::optional<std::pair<Found, Found>> extremes(const PaperResult& result, Samples samplesOf) {
     std::vector<Found> all;
     for (const PaperRow& row : result.rows) {

@@ -84,7 +84,7 @@ void addOptions(CLI::App& parser, BenchOptions& options) {
     }
 }
 
-/// Options that the mode has no use for are refused: they would silently do nothing.
+/// Refuses options without effect in the mode.
 Result<void> checkTogether(const BenchOptions& options, const CLI::App& parser) {
     constexpr const char* kOfScenes[] = {
         "--volume",  "--mesh",      "--mesh-space", "--mesh-scale",       "--transfer-function",

@@ -32,7 +32,7 @@ Result<std::vector<MeshPart>> loadBenchMeshes(const BenchOptions& options) {
     return meshes;
 }
 
-/// The device's session; none, with a note, where there is no device and none was asked for.
+/// Opens the device's session; empty, with a note, if there is no device and none was requested.
 Result<std::optional<device::Session>> openBenchSession(const BenchOptions& options, BenchResult& result) {
     Result<device::Session> session = openSession(options.device);
     if (session.ok()) {
@@ -96,7 +96,7 @@ Outcome runBenchEngines(const BenchOptions& options, const CLI::App& parser) {
         if (options.mode == BenchMode::Certified || options.mode == BenchMode::Outputs) {
             return outcome;
         }
-        // What was measured before is written.
+        // Writes earlier results.
         result.notes.push_back(outcome.text);
     }
     const Result<void> written = deliver(options.output.path, [&](std::ostream& out) -> Result<void> {

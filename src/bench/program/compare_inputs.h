@@ -6,7 +6,7 @@
 
 namespace voxtact::app {
 
-/// What the options name.
+/// Inputs named by options.
 [[nodiscard]] Result<lab::Scene> readScene(const CompareOptions& options);
 
 /// `voxtact compare --localize`.

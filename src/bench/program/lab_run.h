@@ -7,7 +7,7 @@
 #include "cli/options/shared_options.h"
 #include "cli/output/progress.h"
 
-/// What the commands that measure hand to the lab.
+/// Arguments of the measuring commands for the lab.
 namespace voxtact::app {
 
 /// The command line that gives the same run, quoted for a shell; without the options in `without`.

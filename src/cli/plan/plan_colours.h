@@ -9,7 +9,7 @@
 
 namespace voxtact::app {
 
-/// Unsafe red, undecided grey, safe by its clearance.
+/// Unsafe red, undecided grey, safe by its distance.
 [[nodiscard]] inline Rgb planColour(const PlannedPath& path, double maximum) {
     constexpr Rgb kUnsafe{178, 34, 34};
     constexpr Rgb kPossible{128, 128, 128};

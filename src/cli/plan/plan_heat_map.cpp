@@ -59,18 +59,18 @@ class HeatMap {
         : grid_(grid), index_from_world_(glm::inverse(toGlm(worldFromIndex(grid)))),
           values_(std::size_t{grid.size[0]} * grid.size[1] * grid.size[2], kNoPath) {}
 
-    void addPoint(const Vec3& world, double clearance) {
+    void addPoint(const Vec3& world, double distance) {
         const dvec3 at = indexOf(world);
         forVoxels(glm::round(at), glm::round(at),
-                  [&](const dvec3& /*voxel*/, float& value) { lower(value, clearance); });
+                  [&](const dvec3& /*voxel*/, float& value) { lower(value, distance); });
     }
-    void addTriangle(const std::array<Vec3, 3>& world, double clearance) {
+    void addTriangle(const std::array<Vec3, 3>& world, double distance) {
         const Corners at{indexOf(world[0]), indexOf(world[1]), indexOf(world[2])};
         const dvec3 lo = glm::min(glm::min(at[0], at[1]), at[2]);
         const dvec3 hi = glm::max(glm::max(at[0], at[1]), at[2]);
         forVoxels(glm::floor(lo), glm::ceil(hi), [&](const dvec3& voxel, float& value) {
             if (meets(at, voxel)) {
-                lower(value, clearance);
+                lower(value, distance);
             }
         });
     }
@@ -89,8 +89,8 @@ class HeatMap {
     [[nodiscard]] dvec3 indexOf(const Vec3& world) const {
         return dvec3(index_from_world_ * glm::dvec4(world[0], world[1], world[2], 1));
     }
-    static void lower(float& value, double clearance) {
-        const float one = roundedDown(clearance);
+    static void lower(float& value, double distance) {
+        const float one = roundedDown(distance);
         value = value == kNoPath ? one : std::min(value, one);
     }
     /// Visits the voxels of a box inside the grid.

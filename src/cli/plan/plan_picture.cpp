@@ -2,7 +2,7 @@
 #include "cli/plan/plan_picture.h"
 #include "cli/plan/plan_colours.h"
 #include "cli/render/device_picture.h"
-#include "cli/render/mesh_clearance.h"
+#include "cli/render/mesh_distance.h"
 #include "core/base/text.h"
 #include "core/base/try.h"
 #include "core/geometry/glm_bridge.h"
@@ -202,7 +202,7 @@ class PlanPainter {
         }
         Annotation annotation{title, std::move(swatches), {}, scene_.clip_from_world};
         if (withLegend || shown_.best == nullptr) {
-            annotation.legend = clearanceLegend(*options_.maximum);
+            annotation.legend = distanceLegend(*options_.maximum);
         }
         VOXTACT_TRY(annotate(*picture, annotation, *scene_.room));
         return picture;

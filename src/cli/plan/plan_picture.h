@@ -16,8 +16,8 @@ struct ColouredMesh {
     Colour colour{};
 };
 
-/// The triangles between the entries by their colours: safe ones by the least clearance of their corners. Only those
-/// whose middle is `kept`, a bit in front of the surface that they are on.
+/// The triangles between the entries by their colours: safe ones by the minimum distance of their corners. Only those
+/// whose middle is `kept`, slightly in front of their surface.
 [[nodiscard]] std::vector<ColouredMesh> entryMeshes(const PlanInputs& inputs, const TargetPlan& plan, double maximum,
                                                     const std::function<bool(const Vec3&)>& kept);
 /// Returns the needle with its tip at the target, or its visible part; for a mesh, the mesh.

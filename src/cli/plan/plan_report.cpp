@@ -135,7 +135,7 @@ void writeMaps(std::ostream& out, const TargetPlan& plan, double maximum) {
 }
 
 void writeKey(std::ostream& out, double maximum) {
-    out << "<p>Red: unsafe. Grey: undecided. Safe by clearance: ";
+    out << "<p>Red: unsafe. Grey: undecided. Safe by distance: ";
     constexpr int kSteps = 5;
     for (int i = 0; i <= kSteps; ++i) {
         const double share = static_cast<double>(i) / kSteps;

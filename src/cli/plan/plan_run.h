@@ -123,8 +123,8 @@ void addPlanOptions(CLI::App& parser, const std::shared_ptr<PlanOptions>& option
 /// Sets where tips go; volume and labels are read.
 [[nodiscard]] Result<void> readTargets(const PlanOptions& options, PlanInputs& inputs);
 
-/// mm, so large that the best paths differ by their clearance: twice the largest one of some directions from some of
-/// the targets, the same for every part of a run.
+/// Returns a maximum in mm that distinguishes the best paths: twice the largest distance along some directions from
+/// some of the targets, the same for every part of a run.
 [[nodiscard]] Result<double> planMaximum(const PlanOptions& options, const PlanInputs& inputs);
 
 /// Plans for one of the targets.

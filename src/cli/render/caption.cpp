@@ -56,7 +56,7 @@ std::string title(const RenderOptions& options, const RenderInputs& inputs) {
 
 /// Returns the meaning of the last colour of distances.
 std::string farText(const RenderOptions& options) {
-    return number(options.show.maximum.value_or(kDefaultShownClearance)) + " mm or more away";
+    return number(options.show.maximum.value_or(kDefaultShownDistance)) + " mm or more away";
 }
 
 std::vector<Swatch> swatches(const RenderOptions& options) {
@@ -72,8 +72,8 @@ std::vector<Swatch> swatches(const RenderOptions& options) {
         all.push_back(options.slice ? Swatch{paint.contactColour, "contact"} : Swatch{kByOpacity, "contact"});
         all.push_back({paint.discardedColour, "no contact"});
         return all;
-    } else if (options.show.isClearance()) {
-        return {{paint.contactColour, "touches"}, {clearanceLegend(1).colours.back().colour, farText(options)}};
+    } else if (options.show.isDistance()) {
+        return {{paint.contactColour, "touches"}, {distanceLegend(1).colours.back().colour, farText(options)}};
     }
     for (std::size_t mesh = 0; mesh < options.meshes.sources.size(); ++mesh) {
         all.push_back({meshColour(options, mesh), fileNameOf(options.meshes.sources[mesh])});
@@ -94,8 +94,8 @@ Annotation annotationOf(const RenderOptions& options, const RenderInputs& inputs
         preset != nullptr && preset->hounsfield && presetNote(options.preset, inputs.values).empty();
     Legend legend;
     legend.unit = hounsfield ? "HU" : "value";
-    if (inputs.clearance) {
-        legend = clearanceLegend(inputs.clearance->maximum);
+    if (inputs.distances) {
+        legend = distanceLegend(inputs.distances->maximum);
     } else if (window) {
         legend.opacity = {{window->lo, 1}};
         legend.colours = {{window->lo, {0, 0, 0}}, {window->hi, {1, 1, 1}}};

@@ -39,7 +39,7 @@ Result<void> uploadMeshes(const RenderOptions& options, const RenderInputs& inpu
     const ShownPairs pairs{inputs.volume, inputs.meshes, inputs.poses, inputs.transferFunction(options),
                            options.transferFunction.threshold};
     Result<ShowObjects> show =
-        makeShowObjects(options.show, pairs, inputs.clearance, options.progress, session, renderer);
+        makeShowObjects(options.show, pairs, inputs.distances, options.progress, session, renderer);
     VOXTACT_TRY(show);
     objects.show = std::move(*show);
     return {};

@@ -16,7 +16,7 @@ namespace voxtact::app {
 namespace {
 
 double shownMaximum(const RenderOptions& options) {
-    return options.show.maximum.value_or(kDefaultShownClearance);
+    return options.show.maximum.value_or(kDefaultShownDistance);
 }
 
 Result<void> readMeshes(const RenderOptions& options, RenderInputs& inputs) {
@@ -39,8 +39,8 @@ Result<void> readMeshes(const RenderOptions& options, RenderInputs& inputs) {
         Result<MeshData> creased = splitAtCreases(mesh->view());
         VOXTACT_TRY(creased);
         inputs.bounds.push_back(facts->bounds);
-        inputs.meshes.push_back(options.show.isClearance()
-                                    ? meshForClearance(std::move(*creased), inputs.poses, shownMaximum(options))
+        inputs.meshes.push_back(options.show.isDistance()
+                                    ? meshForDistances(std::move(*creased), inputs.poses, shownMaximum(options))
                                     : std::move(*creased));
     }
     return {};
@@ -153,16 +153,16 @@ Result<void> noteOpacity(const RenderOptions& options, RenderInputs& inputs) {
     return {};
 }
 
-Result<void> setClearance(const RenderOptions& options, RenderInputs& inputs) {
-    if (!options.show.isClearance()) {
+Result<void> setDistances(const RenderOptions& options, RenderInputs& inputs) {
+    if (!options.show.isDistance()) {
         return {};
     }
     const TransferFunctionDesc function = inputs.transferFunction(options);
     const double threshold = options.transferFunction.threshold;
-    Result<MeshClearance> measured = measureMeshes({inputs.volume, inputs.meshes, inputs.poses, function, threshold},
+    Result<MeshDistances> measured = measureMeshes({inputs.volume, inputs.meshes, inputs.poses, function, threshold},
                                                    shownMaximum(options), options.progress);
     VOXTACT_TRY(measured);
-    inputs.clearance = std::move(*measured);
+    inputs.distances = std::move(*measured);
     return {};
 }
 
@@ -170,7 +170,7 @@ Result<void> setClearance(const RenderOptions& options, RenderInputs& inputs) {
 
 Result<RenderInputs> readRenderInputs(const RenderOptions& options) {
     RenderInputs inputs;
-    for (const auto read : {readMeshes, readVolume, setCuts, setLook, noteOpacity, setClearance}) {
+    for (const auto read : {readMeshes, readVolume, setCuts, setLook, noteOpacity, setDistances}) {
         VOXTACT_TRY(read(options, inputs));
     }
     return inputs;

@@ -25,7 +25,7 @@ struct RenderInputs {
     std::vector<ClipPlane> clips;
     std::optional<AnnotationRoom> room; ///< of a picture that is annotated
     Mat4 clip_from_world{};
-    std::optional<MeshClearance> clearance; ///< with --show clearance
+    std::optional<MeshDistances> distances; ///< with --show distance
 
     [[nodiscard]] TransferFunctionDesc transferFunction(const RenderOptions& options) const {
         return {opacity, domain, options.transferFunction.tableSize.value_or(kDefaultTableSize)};

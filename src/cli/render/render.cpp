@@ -49,7 +49,7 @@ Result<Picture> renderSlice(const RenderOptions& options, const RenderInputs& in
     constexpr double kPixelsOfOutline = 300;
     scene.thickness = std::max(1.0, std::min(options.view.size.width, options.view.size.height) / kPixelsOfOutline);
     std::vector<std::vector<std::uint32_t>> touching(inputs.meshes.size() * inputs.poses.size());
-    if (!options.show.what.empty() && !inputs.clearance) {
+    if (!options.show.what.empty() && !inputs.distances) {
         const TransferFunctionDesc function = inputs.transferFunction(options);
         if (options.show.what == "triangles") {
             Result<std::vector<std::vector<std::uint32_t>>> found = touchingTriangles(
@@ -66,7 +66,7 @@ Result<Picture> renderSlice(const RenderOptions& options, const RenderInputs& in
         const std::size_t mesh = i / inputs.poses.size();
         scene.meshes.push_back(
             {&inputs.meshes[mesh], inputs.poses[i % inputs.poses.size()], meshColour(options, mesh), touching[i],
-             inputs.clearance ? std::span<const Colour>(inputs.clearance->colours[i]) : std::span<const Colour>()});
+             inputs.distances ? std::span<const Colour>(inputs.distances->colours[i]) : std::span<const Colour>()});
     }
     return makeSlice(scene, options.view.size);
 }
@@ -89,8 +89,8 @@ Result<Picture> renderVolume(const RenderOptions& options, const RenderInputs& i
 /// Draws the annotations, then writes the file.
 Result<void> finish(const RenderOptions& options, const RenderInputs& inputs, const std::optional<ValueRange>& window,
                     Picture& picture) {
-    if (inputs.clearance) {
-        drawClosest(picture, *inputs.clearance, inputs.clip_from_world);
+    if (inputs.distances) {
+        drawClosest(picture, *inputs.distances, inputs.clip_from_world);
     }
     if (inputs.room) {
         VOXTACT_TRY(annotate(picture, annotationOf(options, inputs, window), *inputs.room));

@@ -74,28 +74,28 @@ void addShowOptions(CLI::App& parser, ShowOptions& options) {
         parser, "--max-distance", [&options](double mm) { options.maximum = mm; },
         "--show distance: distance of the last colour, mm", [](double mm) { return mm > 0; }, "above 0", "20");
     parser.get_option("--max-distance")->needs("--show");
-    static_assert(kDefaultShownClearance == 20, "as the help says");
+    static_assert(kDefaultShownDistance == 20, "as the help says");
     parser.get_option("--show")->needs("--mesh");
     parser.get_option("--through")->needs("--show");
     parser.get_option("--opacity-threshold")->needs("--show");
 }
 
 Result<void> checkShowOptions(const ShowOptions& options) {
-    if (options.maximum && !options.isClearance()) {
+    if (options.maximum && !options.isDistance()) {
         return badArgument("--max-distance is for --show distance");
     }
     return {};
 }
 
 Result<ShowObjects> makeShowObjects(const ShowOptions& options, const ShownPairs& pairs,
-                                    const std::optional<MeshClearance>& clearance, bool progress,
+                                    const std::optional<MeshDistances>& distances, bool progress,
                                     const device::Session& session, const Renderer& renderer) {
     ShowObjects objects;
     if (options.what.empty()) {
         return objects;
     }
-    if (clearance) {
-        for (const std::vector<Colour>& colours : clearance->colours) {
+    if (distances) {
+        for (const std::vector<Colour>& colours : distances->colours) {
             Result<PaintedVertices> vertices = PaintedVertices::upload(renderer, session.device.queueAccess(), colours);
             VOXTACT_TRY(vertices);
             objects.vertices.push_back(std::move(*vertices));

@@ -3,7 +3,7 @@
 
 #include "cli/options/open_session.h"
 #include "cli/options/shared_options.h"
-#include "cli/render/mesh_clearance.h"
+#include "cli/render/mesh_distance.h"
 #include "voxtact/render.h"
 
 #include <optional>
@@ -21,9 +21,9 @@ namespace voxtact::app {
 struct ShowOptions {
     std::string what; ///< empty: nothing
     std::optional<double> through;
-    std::optional<double> maximum; ///< mm, of the colours of clearance
+    std::optional<double> maximum; ///< mm, of the last colour
 
-    [[nodiscard]] bool isClearance() const { return what == "distance"; }
+    [[nodiscard]] bool isDistance() const { return what == "distance"; }
 };
 
 /// --show, --through and --max-distance, and that they and --opacity-threshold need what they are about. After those
@@ -43,9 +43,9 @@ struct ShowObjects {
     std::vector<PaintedVertices> vertices{};   ///< the same
 };
 
-/// Decides what `clearance` has not measured, and uploads.
+/// Uploads the colours of `distances`, or decides and uploads the touched triangles.
 [[nodiscard]] Result<ShowObjects> makeShowObjects(const ShowOptions& options, const ShownPairs& pairs,
-                                                  const std::optional<MeshClearance>& clearance, bool progress,
+                                                  const std::optional<MeshDistances>& distances, bool progress,
                                                   const device::Session& session, const Renderer& renderer);
 
 /// Returns the paint of a mesh at a pose, by its index.

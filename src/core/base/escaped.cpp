@@ -9,8 +9,8 @@ namespace voxtact {
 
 namespace {
 
-/// Bytes of the UTF-8 character that begins here; 0: none does. Neither overlong forms nor surrogates are characters,
-/// nor U+FFFE and U+FFFF, which XML knows nothing of.
+/// Returns the bytes of the UTF-8 character that begins here; 0 if none does. Overlong forms, surrogates, U+FFFE and
+/// U+FFFF (invalid in XML) are no characters.
 std::size_t characterAt(std::string_view text) {
     const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
     struct Form {

@@ -7,7 +7,7 @@
 namespace voxtact {
 
 /// A sum or product of doubles without rounding, overflow or underflow: a whole number of any length times a power of
-/// two. For the few decisions that rounding must not take; everything else is decided in double first.
+/// two. For the few decisions that double precision leaves open.
 class ExactNumber {
   public:
     /// Expects a finite number.

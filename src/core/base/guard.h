@@ -9,13 +9,12 @@
 
 namespace voxtact {
 
-/// Short enough for a std::string that needs no memory of its own: there may be none.
+/// Short enough for the small-string buffer: there may be no memory.
 [[nodiscard]] inline Error noHostMemory() noexcept {
     return {ErrorCode::OutOfMemory, 0, "no host memory"};
 }
 
-/// Runs `body` (which returns a Result) and turns whatever it throws into an Error, so that nothing crosses the
-/// public boundary.
+/// Runs `body` (which returns a Result) and converts exceptions to an Error, so that none crosses the public boundary.
 template <class Body> std::invoke_result_t<Body> guard(Body&& body) noexcept {
     try {
         return body();

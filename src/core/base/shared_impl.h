@@ -6,8 +6,8 @@
 
 namespace voxtact {
 
-/// Base of an Impl that other objects share by shared_from_this() after its object ends. The object's own pointer
-/// stands for a share that the Impl holds of itself, and releases that instead of deleting.
+/// Base of an Impl that other objects share by shared_from_this() after its object ends. The object's pointer
+/// represents a share that the Impl holds of itself; deleting it releases the share.
 template <class Impl> class SharedImpl : public std::enable_shared_from_this<Impl> {
   public:
     /// The pointer for the object.

@@ -7,8 +7,8 @@
 
 namespace voxtact {
 
-/// A path from the root on, without "."; links stay, and so does a path with "..", which behind a link is not the
-/// folder before. Where the current folder is gone, the path as it is.
+/// Returns an absolute path without ".". Keeps links and "..", which after a link is not the previous folder. Returns
+/// the path unchanged if the current folder is gone.
 [[nodiscard]] inline std::filesystem::path wholePath(const std::filesystem::path& path) {
     std::error_code failed;
     const std::filesystem::path absolute = std::filesystem::absolute(path, failed);

@@ -22,7 +22,7 @@ template <class Side, class Item>
 concept BatchSide = requires(const Side& side, const Item& item, const WideExtent& extent, const std::string& text) {
     /// Checks the size of a viewport. `text` begins the error and states the size.
     { side.checkExtent(extent, text) } -> std::same_as<Result<void>>;
-    /// An item whose parts are not null. `text` says which it is.
+    /// Checks that the parts of an item are not null. `text` names the item.
     { side.checkItem(item, text) } -> std::same_as<Result<void>>;
     /// True if areSingle() holds for the constants of a checked item.
     { side.holdsValues(item) } -> std::same_as<bool>;

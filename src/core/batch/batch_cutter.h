@@ -21,7 +21,7 @@ template <class Item> class BatchCutter {
   public:
     explicit BatchCutter(std::span<const Item> items) : items_(items) {}
 
-    /// The items of the next `pairs`, and where they come from; false when all are out.
+    /// Takes the items of the next `pairs`, and their origin; returns false after the last.
     bool next(std::uint32_t pairs, std::vector<Item>& part, std::vector<Piece>& pieces) {
         part.clear();
         pieces.clear();

@@ -36,7 +36,7 @@ void setGradientSteps(shader::OutputPair& pair, const Grid& grid, double maxDept
     pair.doublings = static_cast<std::uint32_t>(std::ceil(std::log2(most)));
 }
 
-/// More than any two places in the image are apart, mm.
+/// Upper bound of distances in the image, mm.
 double acrossImage(const Grid& grid) {
     constexpr double kBeyond = 1.001; // more than rounding
     double sides = 0;

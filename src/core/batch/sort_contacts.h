@@ -10,7 +10,7 @@
 
 namespace voxtact {
 
-/// A total order, of NaN too: among infinite voxels values, depths and normals are that, with either sign.
+/// A total order that includes NaN: with infinite voxels, values, depths and normals may be NaN of either sign.
 inline bool contactBefore(const Contact& a, const Contact& b) {
     if (a.pair != b.pair || a.triangle != b.triangle) {
         return a.pair != b.pair ? a.pair < b.pair : a.triangle < b.triangle;
@@ -26,8 +26,8 @@ inline bool contactBefore(const Contact& a, const Contact& b) {
     return order != std::strong_ordering::equal ? order == std::strong_ordering::less : a.label < b.label;
 }
 
-/// The order of BatchAnswer::contacts, which does not depend on who found which first: cells that share a place may
-/// each have a contact there, and those differ in the last bits of their values.
+/// The order of BatchAnswer::contacts, independent of the order of discovery: cells that share a position may each have
+/// a contact there, with values that differ in the last bits.
 inline void sortContacts(std::vector<Contact>& contacts) {
     std::sort(contacts.begin(), contacts.end(), contactBefore);
 }

@@ -12,7 +12,7 @@ namespace voxtact {
 
 namespace {
 
-/// A box as the sweep sees it: the axis that it runs along, and the two others.
+/// A box of the sweep: the axis of the sweep, and the two others.
 struct Swept {
     double lo, hi;
     double lo1, hi1;
@@ -21,7 +21,7 @@ struct Swept {
 };
 
 bool isEmpty(const Box& box) {
-    // A NaN is not less or equal either.
+    // NaN compares false, too.
     return !(box.lo[0] <= box.hi[0] && box.lo[1] <= box.hi[1] && box.lo[2] <= box.hi[2]);
 }
 
@@ -135,7 +135,7 @@ bool overlap(const Box& a, const Box& b) {
     return !isEmpty(a) && !isEmpty(b);
 }
 
-/// A set of one box is asked about in the order of the other: nothing need be sorted.
+/// With one box in a set, the order of the other set suffices, without sorting.
 std::vector<BoxPair> pairsOfOne(std::span<const Box> left, std::span<const Box> right) {
     std::vector<BoxPair> pairs;
     for (std::size_t l = 0; l < left.size(); ++l) {
@@ -192,7 +192,7 @@ double sumDown(double a, double b) {
     return roundedDown(sum, (a - (sum - ofB)) + (b - ofB));
 }
 
-/// The least value of a row of the matrix over the box. The largest one is that of the negated row, negated.
+/// Returns the minimum of a row of the matrix over the box. The maximum is the negated minimum of the negated row.
 double leastOf(const Mat4& b_from_a, std::size_t row, const Box& box, double sign) {
     double least = sign * b_from_a[12 + row];
     for (std::size_t column = 0; column < 3; ++column) {
@@ -234,7 +234,7 @@ Result<std::vector<BoxPair>> overlappingPairs(std::span<const Box> left, std::sp
         const std::vector<Swept> rights = sweepOrder(right, axis);
         Meeting meeting(std::max(lefts.size(), rights.size()));
         std::vector<BoxPair> pairs;
-        // Whichever begins first meets those of the other set that begin within it.
+        // The box that begins first meets those of the other set that begin within it.
         std::size_t l = 0;
         std::size_t r = 0;
         while (l < lefts.size() && r < rights.size()) {

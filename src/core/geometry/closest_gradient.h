@@ -6,8 +6,9 @@
 
 namespace voxtact {
 
-/// Says how the distance of closest points changes with the pose. `way`: from the mesh's point to the volume's; `arm`:
-/// from the object's origin to the mesh's. World mm. Nothing changes where the two are one.
+/// Sets the derivatives of the closest points' distance with respect to the pose. `way`: from the mesh's point to the
+/// volume's; `arm`: from the object's origin to the mesh's point. World mm. The derivatives are 0 if both points
+/// coincide.
 inline void setGradient(WitnessPoints& closest, const Vec3& way, const Vec3& arm) {
     const double distance = length(way);
     if (!(distance > 0)) {

@@ -58,8 +58,8 @@ class Splitter {
     }
 
   private:
-    /// The smaller centroids along the longest axis come to the left, in whole groups of `group`, so that only the last
-    /// group is not full. Returns how many they are.
+    /// Moves the smaller centroids along the longest axis to the left, in whole groups of `group`, so that only the
+    /// last group is not full. Returns their number.
     std::size_t halve(std::span<std::uint32_t> triangles, std::size_t group) const {
         const std::size_t axis = longestAxis(triangles);
         const std::size_t groups = (triangles.size() + group - 1) / group;

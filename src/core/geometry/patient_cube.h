@@ -7,15 +7,15 @@
 #include <cstddef>
 #include <vector>
 
-/// A cube that lies as the patient does, with a letter on each side, as an eye sees it. World space is LPS.
+/// A cube aligned with the patient, with a letter on each side, in a view. World space is LPS.
 namespace voxtact {
 
 /// A side of the patient.
 struct PatientSide {
     const char* letter; ///< L left, R right, P posterior, A anterior, S superior, I inferior
     const char* view;   ///< name of the view of this side, for directionNamed()
-    Vec3 normal;        ///< where it lies
-    Vec3 up;            ///< how its letter stands: upright as a patient does; above and below with the face at the top
+    Vec3 normal;        ///< direction of the side
+    Vec3 up;            ///< up direction of its letter: upright like the patient; on top and bottom, towards the face
 };
 
 /// By axis, the positive side first.
@@ -38,7 +38,7 @@ struct SeenSide {
     std::size_t side = 0;           ///< of kPatientSides
     double facing = 0;              ///< 1: seen from straight before it; near 0: from the side
     std::array<double, 2> middle{}; ///< from the cube's middle
-    std::array<double, 2> right{};  ///< from there to its edge, as its letter stands
+    std::array<double, 2> right{};  ///< from there to its edge, along its letter
     std::array<double, 2> up{};     ///< the same
 };
 

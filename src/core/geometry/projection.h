@@ -12,10 +12,11 @@
 
 namespace voxtact {
 
-/// The cameras that a projection sees each pair through, one after the other: PairTransforms are in this order.
+/// The cameras of a projection for each pair, in the order of the PairTransforms.
 class Cameras {
   public:
-    /// One without any camera puts every point in the middle of the view volume, so that nothing is culled or clipped.
+    /// A projection without camera places every point in the middle of the view volume, so that nothing is culled or
+    /// clipped.
     Cameras(Projection projection, const View& view) noexcept;
 
     [[nodiscard]] std::span<const Mat4> clip_from_world() const noexcept { return std::span(matrices_).first(count_); }

@@ -22,13 +22,13 @@ struct FloatMesh {
     std::span<const std::uint32_t> indices;
 };
 
-/// Vertices as floats. What floats hold has no offset. Elsewhere the box's centre, rounded to a few bits, is taken off
-/// where the box is farther from the origin than it is long.
+/// Vertices as floats. Coordinates that floats represent have no offset. For others, if the box is farther from the
+/// origin than it is long, the box's centre, rounded to a few bits, is subtracted.
 struct Recentred {
     MeshOrigin origin;
     std::vector<float> positions;
 };
-/// Expects three finite coordinates a vertex, which single precision does not take for infinite.
+/// Expects three coordinates per vertex that are finite in single precision.
 [[nodiscard]] Recentred recentred(std::span<const double> positions);
 /// The offset for vertices in a box.
 [[nodiscard]] Vec3 offsetOf(const Box& bounds);

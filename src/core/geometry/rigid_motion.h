@@ -14,7 +14,7 @@
 namespace voxtact {
 
 /// The motion from a pose to another (voxtact/motion.h): a world point x is at t at c(t) + R(t * angle) (x - c(0)), R
-/// turning about the axis, and c(t) the way of one point, the centre of the mesh. For a screw that is an arc.
+/// turning about the axis, and c(t) the path of the centre of the mesh, an arc for a screw.
 class RigidMotion {
   public:
     /// `which` names the poses in an error.
@@ -24,7 +24,7 @@ class RigidMotion {
     [[nodiscard]] static Result<RigidMotion> between(std::span<const Mat4> poses, std::size_t first,
                                                      Interpolation interpolation, const Box& bounds, std::size_t item);
 
-    /// In the terms of src/exact/rigid_pose.h.
+    /// In the representation of src/exact/rigid_pose.h.
     [[nodiscard]] shader::RigidWay way() const;
     /// world_from_object at a parameter from 0 to 1, to the last bit: at the ends as it was given, in between
     /// rigidPose() of the way.
@@ -52,11 +52,11 @@ class RigidMotion {
 
     glm::dmat4 from_{1};
     glm::dmat4 to_{1};
-    glm::dmat4 deformation_{0}; ///< what the rigid motion leaves of `to_` at 1
+    glm::dmat4 deformation_{0}; ///< the non-rigid rest of `to_` at 1
     glm::dvec3 centre_{};       ///< world, at 0
     glm::dvec3 axis_{0, 0, 1};
     double angle_ = 0;
-    glm::dvec3 along_{};  ///< of the centre's way: what goes straight
+    glm::dvec3 along_{};  ///< straight part of the centre's path
     glm::dvec3 across_{}; ///< the chord of its arc; none for slerp
 };
 

@@ -20,7 +20,7 @@ enum MethodNeed : std::uint32_t {
     kNeedsComputeBuffers = 1U << 3U,
 };
 
-/// Who covers the pixels of the projections that have pixels: methods of one kind count the same on every pose.
+/// Coverage of the pixels of projections with pixels: methods of one kind count the same on every pose.
 enum class Coverage {
     Rasteriser, ///< the device's, with its filters
     Computed,   ///< ours, the same bits everywhere
@@ -30,7 +30,7 @@ struct MethodRow {
     CountingMethod method;
     const char* name;
     bool host;  ///< needs no device
-    bool query; ///< an occlusion query counts, so that each pair is a draw of its own
+    bool query; ///< an occlusion query counts, so each pair is a draw
     Coverage coverage;
     bool certified; ///< can decide cells: answers the projection certified
     Exactness exactness;
@@ -58,8 +58,8 @@ struct ProjectionRow {
     const char* name;
     bool camera;         ///< looks through the batch's View
     std::uint32_t views; ///< of a pair, one after the other
-    bool voxelGrid;      ///< its pixels are the volume's samples; samplesPerVoxel is for it
-    bool certified;      ///< decides cells with bounds; resolution and stopAtFirst are for it
+    bool voxelGrid;      ///< its pixels are the volume's samples; uses samplesPerVoxel
+    bool certified;      ///< decides cells with bounds; uses resolution and stopAtFirst
 };
 
 inline constexpr std::array kProjectionTable{
@@ -90,7 +90,7 @@ static_assert(detail::isInOrder(kProjectionTable, [](const ProjectionRow& row) {
     return static_cast<std::size_t>(projection) < kProjectionTable.size();
 }
 
-/// The row of one that is known.
+/// Returns the row of a known number.
 [[nodiscard]] constexpr const MethodRow& rowOf(CountingMethod method) noexcept {
     return kMethodTable[static_cast<std::size_t>(method)];
 }
@@ -103,7 +103,7 @@ static_assert(detail::isInOrder(kProjectionTable, [](const ProjectionRow& row) {
     return !rowOf(projection).certified || rowOf(method).certified;
 }
 
-/// The methods of a kind that know how many: they must count the same on every pose.
+/// Returns the methods of a kind that count all fragments: they must count the same on every pose.
 [[nodiscard]] inline std::vector<CountingMethod> methodsThatCount(Coverage coverage) {
     std::vector<CountingMethod> methods;
     for (const MethodRow& row : kMethodTable) {

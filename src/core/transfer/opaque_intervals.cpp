@@ -21,7 +21,7 @@ constexpr double kLeastEnd = 4 * std::numeric_limits<double>::denorm_min();
 
 bool productsAreEqual(double a, double b, double c, double d) {
     const double product = a * b;
-    constexpr double kLeastExact = 0x1p-960; // below, what a product loses is lost, too
+    constexpr double kLeastExact = 0x1p-960; // smaller products lose bits
     if (std::abs(product) < kLeastExact) {
         return (a == 0 || b == 0) && (c == 0 || d == 0);
     }

@@ -24,9 +24,9 @@ class OpaqueIntervals {
     /// Expects points that checkPoints() accepts.
     OpaqueIntervals(std::span<const ControlPoint> points, double threshold, const StoredScale& stored = {});
 
-    /// Ascending and apart; together they hold all that is opaque.
+    /// Ascending and disjoint; together they contain all opaque values.
     [[nodiscard]] std::span<const ValueRange> outer() const noexcept { return outer_; }
-    /// Ascending and apart; all that they hold is opaque.
+    /// Ascending and disjoint; they contain only opaque values.
     [[nodiscard]] std::span<const ValueRange> inner() const noexcept { return inner_; }
 
     /// Returns whether [lo, hi] may have an opaque value. `hull` is then the smallest interval that certainly contains

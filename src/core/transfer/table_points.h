@@ -8,7 +8,7 @@
 
 namespace voxtact {
 
-/// The control points that a table over a domain stands for.
+/// Returns the control points that a table over a domain represents.
 [[nodiscard]] inline std::vector<ControlPoint> pointsOf(std::span<const float> table, const ValueRange& domain) {
     std::vector<ControlPoint> points;
     const double width = (domain.hi - domain.lo) / static_cast<double>(table.size());

@@ -20,7 +20,7 @@ struct Span {
     std::uint32_t end = 0;
 };
 
-/// The numbers from `lo` to `hi` of an axis with `size` voxels. NaN is taken for no limit.
+/// Returns the numbers from `lo` to `hi` of an axis with `size` voxels. NaN means no limit.
 Span numbersWithin(double lo, double hi, std::uint32_t size) {
     const double most = size;
     const double first = lo > 0 ? std::min(std::ceil(lo), most) : 0;
@@ -35,8 +35,7 @@ constexpr double kLost = 1e-290;
 /// Maximum relative error of the numbers that give a position in index space.
 constexpr double kPlaceError = 1e-9;
 
-/// The least of the numbers from `first` to `end` for which a condition holds that holds for all after it; `end` when
-/// it holds for none.
+/// Returns the first number from `first` to `end` for which a monotonic condition holds; `end` if none.
 template <class Condition> std::uint32_t leastThat(std::uint32_t first, std::uint32_t end, const Condition& holds) {
     while (first < end) {
         const std::uint32_t middle = first + (end - first) / 2;

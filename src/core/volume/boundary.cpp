@@ -29,7 +29,7 @@ std::vector<Face> facesOf(const Grid& grid) {
 template <class Scalar> void addFace(const Face& face, const Scalar* voxels, std::vector<ValueRange>& ranges) {
     for (std::uint32_t v = 0; v < std::max(face.nv - 1, 1U); ++v) {
         for (std::uint32_t u = 0; u < std::max(face.nu - 1, 1U); ++u) {
-            // An image that is one voxel wide has cells of one voxel.
+            // An image of one voxel along an axis has cells of one voxel.
             const std::uint64_t stepU = face.nu > 1 ? face.du : 0;
             const std::uint64_t stepV = face.nv > 1 ? face.dv : 0;
             const Scalar* cell = voxels + face.origin + u * face.du + v * face.dv;

@@ -16,8 +16,8 @@ struct VoxelRow {
     std::uint32_t endX = 0; ///< beyond the last one; greater than firstX
 };
 
-/// The voxels of a region, by ascending z, then y; at most one row for each. This is what decides which
-/// voxels a region has: host and device edit these and no others. Expects a region that voxelBounds() accepts.
+/// Returns the voxels of a region, by ascending z, then y; at most one row for each. This function defines the voxels
+/// of a region for host and device. Expects a region that voxelBounds() accepts.
 [[nodiscard]] std::vector<VoxelRow> voxelRows(const VoxelRegion& region, const Grid& grid);
 
 /// Returns the smallest box that contains all of them.

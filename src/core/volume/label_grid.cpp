@@ -30,7 +30,7 @@ Vec3 voxelAt(const Mat4& texture_from_world, const Grid& volume, const Vec3& wor
     return voxel;
 }
 
-/// Where the label map begins in the volume, and how far from whole voxels its corners are, at most.
+/// Offset of the label map in the volume, and the maximum distance of its corners from whole voxels.
 struct GridOffset {
     Vec3 first{};
     double off = 0;
@@ -64,7 +64,7 @@ bool isInside(const Grid& labels, const Grid& volume, const Vec3& first) {
     return true;
 }
 
-/// What a label map's grid has otherwise.
+/// Returns the differences of a label map's grid.
 std::string differenceOf(const Grid& labels, const Grid& volume, const GridOffset& offset) {
     constexpr double kAlike = 1e-3;
     for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -10,8 +10,8 @@
 /// Checks the label maps of a question about labels.
 namespace voxtact {
 
-/// Refuses a label map that is not on a volume's grid, and says in what they differ. Two files of one grid may differ
-/// in its last digits: voxels that are less than a ten-thousandth of one apart are the same. `which` begins the text.
+/// Refuses a label map that is not on a volume's grid, and states the difference. The tolerance is a ten-thousandth of
+/// a voxel, because files may differ in the last digits. `which` begins the text.
 [[nodiscard]] Result<void> checkLabelGrid(const Grid& labels, const Grid& volume, const std::string& which);
 
 /// The label map on a volume's grid, of which its own is a part: the same directions and spacing, an offset of whole

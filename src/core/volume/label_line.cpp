@@ -113,7 +113,7 @@ Result<std::vector<std::int32_t>> labelsAlong(const LabelData& labels, const Vec
             line.from[axis] *= size[axis];
             line.to[axis] *= size[axis];
         }
-        // Half of the largest number: the way from one to the other is one, too.
+        // Half of the largest number, so that differences are finite.
         constexpr double kMost = std::numeric_limits<double>::max() / 2;
         for (const Vec3& end : {line.from, line.to}) {
             if (!std::ranges::all_of(end, [](double x) { return std::abs(x) <= kMost; })) {

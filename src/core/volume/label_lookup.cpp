@@ -8,7 +8,7 @@ namespace voxtact {
 
 namespace {
 
-/// The cell of a texture coordinate; none outside of [0,1].
+/// Returns the cell of a texture coordinate; none outside [0,1].
 std::optional<std::uint32_t> cellOf(double coordinate, std::uint32_t size) {
     if (!(coordinate >= 0 && coordinate <= 1)) {
         return std::nullopt;

@@ -5,7 +5,7 @@
 
 namespace voxtact {
 
-/// labelAt() for many points: what depends on the map alone is made once. The map must outlive it.
+/// labelAt() for many points: prepares the map once. The map must outlive it.
 class LabelLookup {
   public:
     /// Expects what makeLabels() returns.

@@ -42,13 +42,13 @@ bool placeIfItMayTouch(const PairAt& at, ThreadMemory& memory) {
     return true;
 }
 
-/// The labels that are asked for, of one map.
+/// The requested labels of one map.
 struct Slots {
     static constexpr std::size_t kNowhere = kMaxMeasuredLabels; ///< no voxel has the label
     static_assert(kMaxMeasuredLabels < AreaLabels::kNoSlot);
 
     std::vector<std::uint16_t> ofValue; ///< by LabelData::values
-    std::vector<std::size_t> ofAsked;   ///< by the labels that are asked for, or kNowhere
+    std::vector<std::size_t> ofAsked;   ///< by the requested labels, or kNowhere
     std::size_t count = 0;
 };
 
@@ -98,12 +98,12 @@ AreaAnswer byLabel(const Batch& batch, std::span<const std::int32_t> labels, con
     return answer;
 }
 
-/// A pair, and what its triangles have.
+/// A pair, and the areas of its triangles.
 struct TrianglesOfPair : PairArea {
     std::vector<TriangleFound> triangles;
 };
 
-/// Measures all pairs; `trianglesOf(pair)`: where what its triangles have goes, or null.
+/// Measures all pairs; `trianglesOf(pair)`: output of its triangles' areas, or null.
 template <class Pair, class TrianglesOf>
 Result<void> measureAll(HostEngineImpl& impl, const Area& question, const Batch& batch, std::vector<Pair>& pairs,
                         const TrianglesOf& trianglesOf) {
@@ -122,7 +122,7 @@ Result<void> measureAll(HostEngineImpl& impl, const Area& question, const Batch&
                                     });
 }
 
-/// Refuses what checkLabels() refuses.
+/// Checks labels like checkLabels().
 Result<SlotsOfMaps> slotsOf(const Batch& batch, std::span<const std::int32_t> labels) {
     SlotsOfMaps slots;
     for (const BatchItem& item : batch.items) {

@@ -15,7 +15,7 @@ namespace voxtact::cpu {
 struct AreaGoal {
     double tolerance = 0;        ///< mm^2: how near to each other the bounds of each sum are brought
     std::uint64_t maxSteps = 0;  ///< maximum number of divisions
-    CancelFlag cancel = nullptr; ///< what a cancelled measurement says means nothing
+    CancelFlag cancel = nullptr; ///< the result of a cancelled measurement is undefined
 };
 
 /// Result of a measurement.

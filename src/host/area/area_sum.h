@@ -42,7 +42,7 @@ class AreaSum {
         lo_.add(area.lo);
         hi_.add(area.hi);
     }
-    /// One that was added, and comes again in parts.
+    /// Removes one that was added, before its parts follow.
     void takeBack(const PartArea& area) noexcept {
         lo_.add(-area.lo);
         hi_.add(-area.hi);

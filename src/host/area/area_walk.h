@@ -9,7 +9,7 @@
 
 namespace voxtact::cpu {
 
-/// Cuts triangles at the faces of cells, and leaves out where nothing is opaque. One thread's.
+/// Cuts triangles at the faces of cells, and skips transparent regions. For one thread.
 class AreaWalk {
   public:
     /// All must outlive it. `cellByCell`: also visits the cells of entirely opaque bricks.
@@ -29,8 +29,8 @@ class AreaWalk {
         return mayBeOpaque(cellsOf(lo, hi, all));
     }
 
-    /// Calls `part(CellPart)` for the parts of a triangle in cells that may have something opaque, and
-    /// `opaque(polygon)` for what certainly is, all over. Stops when `goesOn()` is false.
+    /// Calls `part(CellPart)` for the parts of a triangle in cells that may contain opaque points, and
+    /// `opaque(polygon)` for completely opaque parts. Stops when `goesOn()` is false.
     template <class GoesOn, class Part, class Opaque>
     void triangle(const AreaFrame& frame, std::uint32_t number, const GoesOn& goesOn, const Part& part,
                   const Opaque& opaque) const {

@@ -53,7 +53,7 @@ struct PartValues {
     double off = 0;
     double lo = kInfinity;
     double hi = -kInfinity;
-    dvec3 bent{}; ///< how much of `off` the sides of the part's box along each axis make
+    dvec3 bent{}; ///< contribution of the part's box sides along each axis to `off`
     dvec3 half{}; ///< half of these, in the cell's coordinates
 };
 

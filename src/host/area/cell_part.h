@@ -44,8 +44,8 @@ class PartMeasure {
     const VolumeImpl& volume_;
     const OpaquePart& part_;
     double reach_;     ///< AreaSlack::reach()
-    double wide_;      ///< what that may change a value by, anywhere in the volume
-    double wideError_; ///< and what rounding does
+    double wide_;      ///< maximum change of a value by it, anywhere in the volume
+    double wideError_; ///< and by rounding
 };
 
 } // namespace voxtact::cpu

@@ -10,7 +10,7 @@
 
 namespace voxtact::cpu {
 
-/// Parts that may be divided: that first from which most is gained, and of several like that the one that came first.
+/// Divisible parts: the part with the largest gain first; of equal ones, the earliest.
 class OpenParts {
   public:
     struct Open {

@@ -15,7 +15,7 @@ struct Uv {
 
 /// A convex part of a triangle. Areas are in units of the parallelogram of two of its sides: the triangle has 1/2.
 struct UvPolygon {
-    /// A triangle that is cut to a box has 9 at most; the rest is for roundings.
+    /// A triangle that is cut to a box has at most 9; the rest is for rounding.
     static constexpr std::size_t kMost = 12;
 
     std::array<Uv, kMost> corners{};
@@ -37,9 +37,8 @@ struct UvPolygon {
 /// Height of each corner of a polygon above a line in its plane.
 using Heights = std::array<double, UvPolygon::kMost>;
 
-/// Cuts a polygon along the line of height 0. Both parts have the same ends of the cut, so that they leave nothing out
-/// and have nothing in common; corners may be on the wrong side by `slack`, which is many roundings of a height. False:
-/// there is no room for the corners.
+/// Cuts a polygon along the line of height 0. Both parts share the ends of the cut, without gap or overlap. Corners may
+/// be on the wrong side by `slack`, many roundings of a height. Returns false if there is no room for the corners.
 [[nodiscard]] bool split(const UvPolygon& polygon, const Heights& heights, double slack, UvPolygon& below,
                          UvPolygon& above) noexcept;
 

@@ -19,8 +19,8 @@ struct Workshop {
     std::span<const ScratchPointer> scratches;
 };
 
-/// The answers of a checked batch in the projections that have samples: view, two-view, dominant-axis. What they say
-/// of a call that is cancelled means nothing.
+/// The answers of a checked batch in the projections that have samples: view, two-view, dominant-axis. The results of a
+/// cancelled call are undefined.
 [[nodiscard]] BatchAnswer runCounts(const Batch& batch, const Cancellation& cancel, std::uint32_t pairs,
                                     const Count& desc, const Workshop& workshop, Occupancies& occupancies);
 

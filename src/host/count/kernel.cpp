@@ -22,7 +22,7 @@ struct Sorted {
     IntM lone; ///< through the scalar set-up: large, or with a corner outside
 };
 
-/// Expects corners that were put at 0 where they are not usable.
+/// Expects unusable corners at 0.
 HWY_INLINE Sorted sortTriangles(const ViewFacts& view, const Corners& corners) {
     const Ints ints;
     const PixelBox box = pixelBox(view, corners);
@@ -43,7 +43,7 @@ HWY_INLINE Sorted sortByState(const VertexLanes& vertices, const IntV (&vertex)[
     const IntV c = hn::GatherIndex(ints, vertices.state, vertex[2]);
     const IntV any = hn::Or(hn::Or(a, b), c);
     const IntV outside = hn::And(any, hn::Set(ints, kOutsideBits));
-    // Clipping goes plane by plane: only the first that cuts can be seen to leave nothing without clipping.
+    // Clipping goes plane by plane: without clipping, only the first cutting plane can prove that nothing is left.
     const IntV firstPlane = hn::And(outside, hn::Neg(outside));
     const IntV all = hn::And(hn::And(a, b), c);
     const IntM gone = hn::Ne(hn::And(all, hn::Or(firstPlane, hn::Set(ints, kBeyondBits))), zero);

@@ -16,7 +16,8 @@ struct ScratchDeleter {
 using ScratchPointer = std::unique_ptr<Scratch, ScratchDeleter>;
 [[nodiscard]] ScratchPointer makeScratch();
 
-/// Survivors of the job's clusters, with the best instructions that the processor has. With stopAtFirst, 1 for any.
+/// Returns the passing fragments of the job's clusters, with the best instructions of the processor. With stopAtFirst,
+/// 1 for any.
 [[nodiscard]] std::uint64_t countSurvivors(const PairJob& job, Scratch& scratch);
 
 } // namespace voxtact::cpu

@@ -40,7 +40,7 @@ Range coordinates(const ExactTriangle& triangle, float base, float u, float v, f
     const float q2 = triangle.q0 + triangle.q2q0;
     const Range range = triangle.affine ? rangeOf(base, base + u, base + v)
                                         : rangeOf(base / triangle.q0, (base + u) / q1, (base + v) / q2);
-    // The least and the greatest of three forget a NaN.
+    // Minimum and maximum of three ignore a NaN.
     if (!std::isfinite(base + u + v) || !std::isfinite(range.lo) || !std::isfinite(range.hi)) {
         return {-kLargestCoordinate, kLargestCoordinate};
     }
@@ -74,7 +74,7 @@ BrickClass boxClass(const PairJob& job, const Range (&ranges)[3]) {
     return found == kOpaqueBrick && job.view.rangeTest && !inside ? kMixedBrick : found;
 }
 
-/// The values that a form takes over a cluster's box, and what they may be off.
+/// The range of a form over a cluster's box, and its error.
 Range overCluster(const Form& form, const MeshImpl& mesh, std::size_t cluster) {
     const float centre = form.x * mesh.centreX[cluster] + form.y * mesh.centreY[cluster] +
                          form.z * mesh.centreZ[cluster] + form.constant;

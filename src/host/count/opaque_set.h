@@ -15,7 +15,7 @@ struct Interval {
     float hi = 0;
 };
 
-/// The stored values that the exact arithmetic finds opaque, as disjoint ascending intervals: exactly those floats, no
+/// The stored values that are opaque in the exact arithmetic, as disjoint ascending intervals: exactly those floats, no
 /// margin. Every step of exactEntry(), and exactLerp() between two entries, is monotonic in its argument also after
 /// rounding, so that within one entry of the table the verdict changes at most once.
 class OpaqueSet {

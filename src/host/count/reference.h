@@ -6,11 +6,11 @@
 
 #include <cstdint>
 
-/// The exact arithmetic (src/exact/exact.h) one triangle after the other, one pixel after the other, nothing skipped:
-/// what the engine's counts must be, bit for bit.
+/// The exact arithmetic (src/exact/exact.h) triangle by triangle and pixel by pixel, without culling: the reference of
+/// the engine's counts, bit for bit.
 namespace voxtact::cpu {
 
-/// One pair, as data, seen once.
+/// Data of one pair in one view.
 struct ReferencePair {
     MeshView mesh;
     VolumeView volume;

@@ -53,10 +53,10 @@ struct CullLanes {
 enum CullVerdict : std::int32_t {
     kCullSkip = 1,   ///< no pixel or no coordinate in the image
     kCullInside = 2, ///< every coordinate in the image
-    kCullUnsure = 4, ///< the box means nothing
+    kCullUnsure = 4, ///< the box is undefined
 };
 
-/// A triangle that goes through the scalar set-up: large, or with a corner outside, or without a camera.
+/// A triangle for the scalar set-up: large, with a corner outside, or without a camera.
 struct LoneTriangle {
     std::uint32_t cluster;
     std::uint32_t triangle; ///< of MeshImpl's arrays

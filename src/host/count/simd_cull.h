@@ -22,7 +22,7 @@ struct ClusterBoxes {
     FloatV halfX, halfY, halfZ;
 };
 
-/// The least and the greatest value of a form over the boxes, without its margin.
+/// Minimum and maximum of a form over the boxes, without its margin.
 struct FormRange {
     FloatV lo, hi;
 };
@@ -43,7 +43,7 @@ HWY_INLINE FormRange rangeOf(const Form& form, const ClusterBoxes& boxes) {
 constexpr float kMostRatio = 4096;
 
 struct Depth {
-    FloatV ratio; ///< of the largest w to the smallest
+    FloatV ratio; ///< ratio of the largest w to the smallest
     hn::Mask<Floats> usable;
 };
 

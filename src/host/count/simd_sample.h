@@ -77,7 +77,7 @@ template <class Kept> class Sampler {
                 return 0;
             }
         }
-        // Includes lanes that are not live: every lookup must stay in the image, whatever the coordinate.
+        // Includes inactive lanes: every lookup must stay in the image, for any coordinate.
         x = hn::IfThenElseZero(hn::Ge(x, zero), hn::Min(x, one));
         y = hn::IfThenElseZero(hn::Ge(y, zero), hn::Min(y, one));
         z = hn::IfThenElseZero(hn::Ge(z, zero), hn::Min(z, one));

@@ -63,7 +63,7 @@ HWY_INLINE Edge edgeOf(IntV ax, IntV ay, IntV bx, IntV by, IntV px, IntV py) {
 /// A vector of triangles after set-up; edges as exactFragment() numbers them.
 struct SmallTriangles {
     Edge edge[3];
-    IntV lastX, lastY; ///< columns and rows less one; negative: nothing
+    IntV lastX, lastY; ///< columns and rows less one; negative: none
     IntV vertex[3];
     FloatV rcpArea;
 };
@@ -164,7 +164,7 @@ HWY_INLINE Planes planesOf(const PairJob& job, const SmallTriangles& triangles, 
     return out;
 }
 
-/// Shades the listed fragments; returns the survivors.
+/// Shades the listed fragments; returns the number of passing ones.
 template <class Kept>
 HWY_INLINE std::size_t shadeFragments(const PairJob& job, const Sampler<Kept>& sampler, const SmallTriangles& triangles,
                                       const Planes& planes, const std::int32_t* fragments, std::size_t count) {

@@ -29,7 +29,7 @@ HWY_INLINE IntV subpixel(FloatV clip, FloatV q, float scale, hn::Mask<Floats> us
     return hn::ConvertTo(Ints(), hn::IfThenElseZero(usable, rounded));
 }
 
-/// The bits of a VertexState that say where clipping is needed.
+/// The bits of a VertexState for necessary clipping.
 HWY_INLINE IntV outsideBits(const ViewFacts& view, FloatV x, FloatV y, FloatV z, FloatV w) {
     const Floats d;
     const Ints ints;
@@ -45,7 +45,7 @@ HWY_INLINE IntV outsideBits(const ViewFacts& view, FloatV x, FloatV y, FloatV z,
     return hn::Or(hn::Or(depth, sides), hn::Or(bit(hn::Add(edgeY, y), 16), bit(hn::Sub(edgeY, y), 32)));
 }
 
-/// The bits of a VertexState that say on which side of the image a vertex is: exactBeyond().
+/// The bits of a VertexState for the side of the image beyond which a vertex is: exactBeyond().
 HWY_INLINE IntV beyondBits(const FloatV (&t)[3]) {
     const Floats d;
     const Ints ints;

@@ -9,7 +9,7 @@
 
 namespace voxtact::cpu {
 
-/// A mesh on its way from one shape to another: each vertex goes straight, at constant speed.
+/// A mesh between two shapes: each vertex moves on a line, at constant speed.
 class Bending {
   public:
     /// The shapes are such as checkMesh() accepts, and live as long as it. The mesh is copied.

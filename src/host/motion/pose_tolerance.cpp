@@ -61,7 +61,7 @@ void PoseToleranceSearch::run(PairTouch& out) const {
     // Rounded up, so a rotation by exactly the angle is included.
     sweep.turn = std::min(angle_ * (1 + kRounding), glm::pi<double>());
     const double magnitude = magnitudeOf(at_);
-    const double ofMesh = magnitude - glm::length(dvec3(toGlm(at_.world_from_object)[3])); // what is divided
+    const double ofMesh = magnitude - glm::length(dvec3(toGlm(at_.world_from_object)[3])); // current object of division
     sweep.slack = distance_ * (1 + kRounding) + kRelativeError * magnitude + at_.deflection() +
                   (divided_ != nullptr ? kDividedError * (ofMesh + kRelativeError * magnitude) : 0);
     PairAt pieces = at_;

@@ -45,7 +45,7 @@ SegmentSearch::SegmentSearch(const BatchItem& item, const OpaquePart& part, cons
       deformation_(motion.deformation(bounds())), rounding_(motion.rounding(bounds())) {
     if (bending_ != nullptr) {
         speed_ += scale_ * bending_->reach().most;
-        rounding_ += 2 * scale_ * bending_->rounding(); // of where it is, and of where it may be
+        rounding_ += 2 * scale_ * bending_->rounding(); // of its position, and of its possible positions
     }
 }
 
@@ -86,7 +86,7 @@ SegmentSearch::Seen SegmentSearch::see(const Interval& interval, bool last) {
 }
 
 bool SegmentSearch::touches(double parameter, SegmentMotion& out) {
-    constexpr std::uint64_t kTouchSteps = 256; // where it is hard to say, it takes as long as many of a search
+    constexpr std::uint64_t kTouchSteps = 256; // a hard decision takes as long as many search steps
     const PairAt at = pairAt(parameter);
     std::optional<TouchPoint> point;
     steps_ += kTouchSteps;

@@ -46,7 +46,7 @@ struct BoxMeasure::Values {
     double middle = 0; ///< of the linear function
     dvec3 slope{};     ///< a half side along each axis changes it by so much
     double off = 0;    ///< all of `error` included
-    dvec3 bent{};      ///< how much of that is gone when the box is divided across an axis
+    dvec3 bent{};      ///< part of it that a division across an axis removes
     dvec3 centre{};
     dvec3 half{};
     Trilinear terms{}; ///< of the box
@@ -59,7 +59,7 @@ struct BoxMeasure::Values {
     [[nodiscard]] double size() const noexcept {
         return 4 * (std::abs(slope.x) + std::abs(slope.y) + std::abs(slope.z));
     }
-    /// Of the box, what is between two values `error` apart at most.
+    /// Part of the box between two values, at most `error` apart.
     [[nodiscard]] double thickness() const noexcept {
         const double steepest = std::max({std::abs(slope.x), std::abs(slope.y), std::abs(slope.z)});
         return steepest > 0 ? std::min(1.0, 4 * error / steepest) : 1.0;
@@ -141,7 +141,7 @@ void BoxMeasure::placeSheets(const CellPartBox& box, const Values* values, const
             all.volume += jump * volume;
         }
     };
-    // The whole front face comes first: what is behind it is the box.
+    // Starts with the whole front face: the space behind it is the box.
     const std::array<dvec3, 4> front{box.lo, dvec3{box.lo.x, box.hi.y, box.lo.z}, dvec3{box.lo.x, box.hi.y, box.hi.z},
                                      dvec3{box.lo.x, box.lo.y, box.hi.z}};
     place(front.data(), 4, base);
@@ -168,8 +168,8 @@ double BoxMeasure::volumeBehind(const Corner* corners, std::uint32_t count) noex
     return sum / 6;
 }
 
-/// Where the values grow along the way (slope > 0), all of the way counts where it begins at `from` or above, and the
-/// part beyond `from` where it only ends above; and the other way round.
+/// If the values grow along the path (slope > 0), the whole path counts if it begins at `from` or above, else the part
+/// beyond `from`; and vice versa.
 double BoxMeasure::volumeFrom(const Corner* corners, std::uint32_t count, double slope, double from) noexcept {
     const double inverse = 1 / std::abs(slope);
     std::array<Corner, 2 * Sheet::kMax + 2> all;
@@ -187,7 +187,7 @@ double BoxMeasure::volumeFrom(const Corner* corners, std::uint32_t count, double
         at.way = slope == 0 ? 0 : std::clamp(height * inverse, 0.0, std::max(at.way, 0.0));
         part[partCount++] = at;
     };
-    // Along a side both heights are linear, so that of a side each cut comes where it belongs.
+    // Along a side both heights are linear, so the cuts of a side are in order.
     for (std::uint32_t i = 0; i < count; ++i) {
         const Corner& a = corners[i];
         const Corner& b = corners[i + 1 == count ? 0 : i + 1];

@@ -38,14 +38,14 @@ struct BoxVolume {
     bool mayLeave = true;   ///< false: all opaque points of the box are in the solid
 };
 
-/// What is opaque in a box behind sheets. One thread's.
+/// Computes the opaque volume of a box behind sheets. For one thread.
 class BoxMeasure {
   public:
     /// All must outlive it. `rounding`: no corner of a sheet is off by more, voxels.
     BoxMeasure(const VolumeImpl& volume, const OpaquePart& part, double rounding)
         : volume_(volume), part_(part), rounding_(rounding) {}
 
-    /// How much of a box is opaque, whatever the solid.
+    /// Returns the opaque volume of a box, without the solid.
     [[nodiscard]] BoxVolume opaque(const CellPartBox& box);
     /// `sheets` are in the box. `base`: the solid's winding in front of them, 0 or 1, or kUnknownJump.
     [[nodiscard]] BoxVolume measure(const CellPartBox& box, const SheetList& sheets, Jump base);
@@ -66,7 +66,7 @@ class BoxMeasure {
     const OpaquePart& part_;
     double rounding_;
 
-    /// A corner of a sheet: its place, how far the box goes on behind it, and the linear values there and at the end.
+    /// A corner of a sheet: its position, the depth of the box behind it, and the linear values at both ends.
     struct Corner {
         double y = 0;
         double z = 0;

@@ -9,7 +9,7 @@ namespace voxtact::cpu {
 
 namespace {
 
-/// What is opaque where the surface is not.
+/// Opaque regions off the surface.
 struct Elsewhere {
     bool isCertain = false;  ///< something outside certainly is
     bool isPossible = false; ///< something may be
@@ -22,7 +22,7 @@ class OutsideScan {
         : volume_(volume), part_(part), surface_(surface), labels_(labels), wanted_(std::move(wanted)),
           found_(wanted_.size()), measure_(volume, part.part, 0), left_(std::ranges::count(wanted_, true)) {}
 
-    /// Of the sums that are wanted. Bricks beside the surface come first: most often they tell.
+    /// For the requested sums. Tests bricks near the surface first, which usually decide.
     std::vector<Elsewhere> run() {
         const BrickBox around = surface_.bricks();
         for (const bool beside : {true, false}) {
@@ -52,7 +52,7 @@ class OutsideScan {
             return;
         }
         if (isBeside && labels_ == nullptr) {
-            add(0, false, true); // OverlapPart::isCertainBeside() has said that none certainly is
+            add(0, false, true); // OverlapPart::isCertainBeside() excluded a certain one
             return;
         }
         NodePlace first{};
@@ -127,7 +127,7 @@ class OutsideScan {
     std::ptrdiff_t left_;
 };
 
-/// By sum: whether something in cells near the surface, by its error, may be opaque.
+/// By sum: true if cells within the error of the surface may be opaque.
 std::vector<bool> nearOpaque(const VolumeImpl& volume, const OverlapPart& part, const PairSurface& surface,
                              const OverlapLabels* labels, std::size_t count, double reach) {
     std::vector<bool> near(count, surface.grazes());

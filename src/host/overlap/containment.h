@@ -8,7 +8,7 @@
 
 namespace voxtact::cpu {
 
-/// What is known of a pair besides its sums.
+/// Facts about a pair in addition to its sums.
 struct ContainmentFacts {
     double error = 0;           ///< voxels: no volume is off by more
     double reach = 0;           ///< voxels: no place is off by more

@@ -63,11 +63,11 @@ struct AlongAxis {
           a3(terms[1U << y | 1U << z]), b(terms[1U << axis]), e1(terms[1U << axis | 1U << y]),
           e2(terms[1U << axis | 1U << z]), e3(terms[7]) {}
 
-    /// How much the steepness changes, relative to it.
+    /// Relative change of the slope.
     [[nodiscard]] double change() const noexcept {
         return b != 0 ? (std::abs(e1) + std::abs(e2) + std::abs(e3)) / std::abs(b) : 1;
     }
-    /// Whether the function passes 0 on each way along x: it does where it does at the corners.
+    /// Returns true if the function crosses 0 on each line along x: true if it does at the corners.
     [[nodiscard]] bool passes() const noexcept {
         bool passes = true;
         for (const double v : {-1.0, 1.0}) {
@@ -78,8 +78,8 @@ struct AlongAxis {
         }
         return passes;
     }
-    /// The mean over y and z of (a0 + ...) / |b + ...|, by 1 - e + e^2 for 1 / (1 + e): what it is off is no more than
-    /// change() to the third, as the quotient is between -1 and 1.
+    /// The mean over y and z of (a0 + ...) / |b + ...|, by 1 - e + e^2 for 1 / (1 + e): the error is at most change()
+    /// cubed, because the quotient is between -1 and 1.
     [[nodiscard]] double mean() const noexcept {
         const double first = ((a1 * e1 + a2 * e2) / 3 + a3 * e3 / 9) / b;
         const double second =

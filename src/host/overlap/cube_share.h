@@ -15,18 +15,17 @@ inline constexpr double kFlatSlope = 0x1p-16;
 /// No such part is off by more: kFlatSlope is in the denominator.
 inline constexpr double kShareError = 0x1p-30;
 
-/// Where dot(slope, s) is no less than `from`.
+/// The part with dot(slope, s) >= `from`.
 [[nodiscard]] double linearShare(const glm::dvec3& slope, double from) noexcept;
 
-/// Where a trilinear function is no less than `from`, and that is behind a surface that passes through the cube from
-/// side to side.
+/// The part with a trilinear function >= `from`, behind a surface that crosses the whole cube.
 struct GraphShare {
     double share = 0;
     double error = 0;     ///< it is not off by more
     double steepness = 0; ///< along the axis that the surface is behind, a unit changes the function by no less
     int axis = 0;         ///< across that one the cube is best divided
 };
-/// Nothing: no axis is such that the function is monotonic along it, and passes `from` on each way along it.
+/// Empty if there is no axis along which the function is monotonic and crosses `from` on each line.
 [[nodiscard]] std::optional<GraphShare> graphShare(const Trilinear& terms, double from) noexcept;
 
 } // namespace voxtact::cpu

@@ -10,10 +10,10 @@
 
 namespace voxtact::cpu {
 
-/// Whether anything opaque is inside the mesh of a pair.
+/// Tests for an opaque region inside the mesh of a pair.
 struct Enclosed {
     Verdict verdict = Verdict::No;
-    std::optional<Vec3> point; ///< of a yes: certainly opaque and inside, world mm; nothing where rounding hides it
+    std::optional<Vec3> point; ///< for a yes: certainly opaque and inside, world mm; empty if rounding hides it
 };
 
 /// Refuses meshes without an inside.
@@ -22,8 +22,7 @@ struct Enclosed {
 /// One for each pair of a batch. `tolerance`: of the overlap that decides, mm^3.
 [[nodiscard]] Result<std::vector<Enclosed>> enclosedIn(HostEngineImpl& impl, const Batch& batch, double tolerance);
 
-/// Calls `use(pair, enclosed)` for the pairs of a batch that `isFree(pair)` says: whose surface does not certainly
-/// touch.
+/// Calls `use(pair, enclosed)` for the pairs of a batch with `isFree(pair)`: their surface does not certainly touch.
 template <class Pair, class IsFree, class Use>
 [[nodiscard]] Result<void> forEnclosed(HostEngineImpl& impl, const Batch& batch, std::vector<Pair>& pairs,
                                        const IsFree& isFree, const Use& use) {

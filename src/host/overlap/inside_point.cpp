@@ -100,7 +100,8 @@ class InsideSearch {
         return false;
     }
 
-    /// The winding number at a point, by a ray; nothing where the surface may be on the point or the ray on an edge.
+    /// Returns the winding number at a point, by a ray; empty if the surface may contain the point or the ray may meet
+    /// an edge.
     [[nodiscard]] std::optional<int> windingAlong(const dvec3& voxel, const dvec3& direction) {
         const VolumeSpace& space = part_.part.space;
         int winding = 0;

@@ -10,8 +10,8 @@
 namespace voxtact::cpu {
 
 /// Finds a point that is certainly opaque and certainly inside the solid, world mm. The mesh is in place, as for
-/// PairSurface::begin(). Nothing where rounding decides, after many points outside, and where the surface divides an
-/// opaque component.
+/// PairSurface::begin(). Empty if rounding decides, after many points outside, and if the surface divides an opaque
+/// component.
 [[nodiscard]] std::optional<Vec3> opaquePointInside(const VolumeImpl& volume, const OverlapPart& part,
                                                     const PairSurface& surface, MeshPlace& mesh, CancelFlag cancel);
 

@@ -16,9 +16,9 @@ namespace voxtact::cpu {
 /// Slots of a cell's octants: of the one that is the upper one along x at 1, y at 2, z at 4.
 using SlotOctants = std::array<std::uint16_t, 8>;
 
-/// The labels that are asked for, of one map.
+/// The requested labels of one map.
 struct OverlapLabels {
-    /// Of a label that is not asked for.
+    /// Slot of a label that is not requested.
     static constexpr std::uint16_t kNoSlot = 0xffff;
     static_assert(kMaxMeasuredLabels < kNoSlot);
 
@@ -54,7 +54,7 @@ struct OverlapLabels {
 
     const LabelData* map;               ///< on the volume's grid
     std::vector<std::uint16_t> slots;   ///< of LabelData::values: the number of the sum, or kNoSlot
-    std::vector<std::uint16_t> ofAsked; ///< by the labels that are asked for; kNoSlot: no voxel has it
+    std::vector<std::uint16_t> ofAsked; ///< by the requested labels; kNoSlot: no voxel has the label
     std::size_t count = 0;              ///< of sums
 };
 

@@ -113,7 +113,7 @@ Result<void> checkQuestion(const Overlap& question, const Batch& batch) {
     return question.labels.empty() ? Result<void>{} : checkMeasuredLabels(batch, question.labels);
 }
 
-/// What the items of a batch are made to, in their order.
+/// Prepared items of a batch, in order.
 struct Items {
     std::vector<OverlapItem> items;
     std::map<const LabelData*, OverlapLabels> labels;
@@ -175,7 +175,7 @@ Result<Items> makeItems(HostEngineImpl& impl, const Overlap& question, const Bat
     return items;
 }
 
-/// A pair before it is told in an answer.
+/// Result of a pair before it enters the answer.
 struct MeasuredPair {
     std::uint32_t pair = 0;
     std::uint32_t item = 0;

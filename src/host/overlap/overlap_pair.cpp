@@ -83,7 +83,7 @@ class PairRun {
     }
 
   private:
-    /// Places must be told to a part of a voxel, and on which side of a triangle the solid is.
+    /// Positions must be known to a part of a voxel, and the solid side of each triangle.
     [[nodiscard]] bool isPlaceKnown() const {
         constexpr double kMaxReach = 0.25 / 16;
         return reach() < kMaxReach && std::abs(pose_.value) > 2 * pose_.error && voxel_.value > 2 * voxel_.error;
@@ -111,7 +111,7 @@ class PairRun {
         return {part * own / (voxel_.value + voxel_.error) * (1 - 0x1p-30), question_.maxSteps, cancel_};
     }
 
-    /// From voxels to mm^3, and what the surface may be off.
+    /// Converts voxels to mm^3, and adds the error of the surface.
     [[nodiscard]] Bounds boundsOf(const Bounds& voxels, double error) const {
         constexpr double kDown = 1 - 0x1p-50;
         const double lower = std::max(voxels.lower * (voxel_.value - voxel_.error) * kDown - error, 0.0);
@@ -153,7 +153,7 @@ class PairRun {
         return out;
     }
 
-    /// A band is what is no less than its lower limit, without what is no less than its upper one.
+    /// A band is the part at or above its lower limit, minus the part at or above its upper limit.
     void measureBands() {
         std::vector<OverlapFound> from;
         for (const auto& part : made_.limits) {

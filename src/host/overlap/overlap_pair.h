@@ -14,11 +14,11 @@
 
 namespace voxtact::cpu {
 
-/// What is made of a batch item for all of its poses.
+/// A batch item, prepared for all of its poses.
 struct OverlapItem {
     std::shared_ptr<const SolidSurface> solid;
     std::shared_ptr<const OverlapPart> part;
-    /// What is no less than each limit of bands, and before these all of the volume; empty: no bands.
+    /// The whole volume, then the parts at or above each limit of the bands; empty: no bands.
     std::vector<std::shared_ptr<const OverlapPart>> limits;
     const OverlapLabels* labels = nullptr; ///< null: no labels
     bool wantsPoint = false;               ///< PairMeasures::inside
@@ -31,16 +31,16 @@ struct Measure {
     StopReason end = StopReason::Closed;
 };
 
-/// All that is asked of a pair.
+/// Outputs of a pair.
 struct PairMeasures {
     Measure whole;
     Bounds solid;
     std::vector<Measure> bands;
     std::vector<Measure> labels; ///< by slot
-    std::optional<Vec3> inside;  ///< where it is asked for: a point that is certainly opaque and inside, world mm
+    std::optional<Vec3> inside;  ///< on request: a point that is certainly opaque and inside, world mm
 };
 
-/// What is kept from pair to pair, one thread's.
+/// Memory reused between pairs, for one thread.
 struct OverlapMemory {
     MeshPlace& mesh;
     PairSurface& surface;

@@ -12,7 +12,7 @@
 
 namespace voxtact::cpu {
 
-/// Opaque volumes of a brick's cells: each is made when it is first asked for. Thread-safe.
+/// Opaque volumes of a brick's cells, each computed at first use. Thread-safe.
 class BrickVolumes {
   public:
     static constexpr std::size_t kCells = std::size_t{1} << (3 * kBrickShift);
@@ -40,7 +40,7 @@ class BrickVolumes {
     mutable std::array<std::atomic<std::uint64_t>, kCells> known_;
 };
 
-/// One volume under one transfer function and threshold, and how much of each cell is opaque. Made once for all poses.
+/// One volume under one transfer function and threshold, with the opaque volume of each cell, for all poses.
 /// Thread-safe.
 class OverlapPart {
   public:
@@ -52,7 +52,7 @@ class OverlapPart {
     [[nodiscard]] static NodePlace brickOf(const NodePlace& cell) noexcept {
         return {cell[0] >> kBrickShift, cell[1] >> kBrickShift, cell[2] >> kBrickShift};
     }
-    /// How much of a cell is opaque: nothing, all, or some.
+    /// Opaque part of a cell: none, all, or some.
     [[nodiscard]] Kind kind(const VolumeImpl& volume, const NodePlace& cell) const;
     /// In voxels, for a mixed cell; the higher the level, the nearer are the bounds. `gain` is set where the next level
     /// may bring them nearer. `volume` is the one of the constructor, here and above.
@@ -60,7 +60,7 @@ class OverlapPart {
 
     /// Estimated number of boxes of this level.
     [[nodiscard]] static std::uint64_t boxesOf(unsigned level) noexcept { return std::uint64_t{4} << (4 * level); }
-    /// Whether a brick that is not in the box certainly has an opaque point.
+    /// Returns true if a brick outside the box certainly contains an opaque point.
     [[nodiscard]] bool isCertainBeside(const VolumeImpl& volume, const BrickBox& box) const;
 
     OpaquePart part;

@@ -17,7 +17,7 @@ constexpr std::uint64_t kMoreSteps = 2048;
 
 /// A box that may be measured better.
 struct OpenBox {
-    /// How that is done: by the next level of a cell inside the solid, by the sheets of a crossed cell, or by halves.
+    /// Kinds of division: by the next level of a cell inside the solid, by the sheets of a crossed cell, or by halves.
     enum class By : std::uint8_t { Level, Sheets, Halves };
 
     CellPartBox box;
@@ -30,7 +30,7 @@ struct OpenBox {
     std::uint32_t run = 0;    ///< and the first one of its run
 };
 
-/// The boxes of one sum: that is divided first from which most is gained, and of several like that the first one.
+/// The boxes of one sum: the box with the largest gain is divided first; of equal ones, the earliest.
 class OverlapSum {
   public:
     void add(const BoxVolume& volume) {
@@ -74,7 +74,7 @@ class OverlapSum {
         const Bounds now = bounds();
         return now.upper - now.lower <= tolerance;
     }
-    /// Whether it is said how much is inside: none, all or some.
+    /// Returns true if containment is decided: none, all or some.
     [[nodiscard]] bool tells(double error, bool isSomeOutside) const noexcept {
         const bool isInside = mayOverlap_ == 0 || bounds().lower > error;
         const bool isOutside = isSomeOutside || mayLeave_ == 0 || outside_ > error;
@@ -110,7 +110,7 @@ class OverlapSum {
     bool isHeap_ = false;
 };
 
-/// What is on either side of a plane, for boxes there.
+/// Data on both sides of a plane, for boxes there.
 struct Halves {
     SheetList below;
     SheetList above;

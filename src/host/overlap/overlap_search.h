@@ -13,15 +13,15 @@
 
 namespace voxtact::cpu {
 
-/// What is asked of a measurement.
+/// Inputs of a measurement.
 struct OverlapGoal {
-    double tolerance = 0;        ///< voxels: how near to each other the bounds of each sum are brought
+    double tolerance = 0;        ///< voxels: stop when upper - lower of each sum is at most this
     std::uint64_t maxSteps = 0;  ///< maximum number of boxes to divide for each sum
-    CancelFlag cancel = nullptr; ///< what a cancelled measurement says means nothing
-    /// Voxels: volumes that are larger prove something. Boxes are divided on, for a while, until there is such a volume
-    /// inside the solid, and one outside of it, or certainly none.
+    CancelFlag cancel = nullptr; ///< the result of a cancelled measurement is undefined
+    /// Voxels: minimum volume of a proof. Division continues for a while, until such a volume is found inside and
+    /// outside the solid, or certainly none exists.
     double error = 0;
-    bool isSomeOutside = false; ///< there is something opaque outside, elsewhere
+    bool isSomeOutside = false; ///< an opaque region is known outside
 };
 
 /// One sum.

@@ -112,7 +112,7 @@ void PairSurface::addTriangle(const WorldTriangle& corners, Jump jump, const UvP
     cutAlong(sheet, 2, cell);
 }
 
-/// Cuts at the faces of cells across an axis and those before it; what is in front of the image along x is kept.
+/// Cuts at the faces of cells across an axis and the axes before it; keeps parts before the image along x.
 void PairSurface::cutAlong(const Sheet& sheet, int axis, std::array<std::int32_t, 3>& cell) {
     if (axis < 0) {
         add(sheet, cell);

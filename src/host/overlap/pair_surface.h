@@ -52,13 +52,13 @@ class PairSurface {
     [[nodiscard]] double rounding() const noexcept { return rounding_; }
     /// No place is off by more, voxels.
     [[nodiscard]] double reach() const noexcept { return reach_; }
-    /// What MeshPlace::error() changes any volume by, mm^3.
+    /// Maximum change of a volume by MeshPlace::error(), mm^3.
     [[nodiscard]] double displaced() const noexcept { return displaced_; }
-    /// Whether the surface is so near to the image's faces, out of it, that it may be in it.
+    /// Returns true if the surface outside the image is within the error of its faces.
     [[nodiscard]] bool grazes() const noexcept { return grazes_; }
 
     enum class Place : std::uint8_t { Outside, Inside, Crossed, Unknown };
-    /// Where a cell is.
+    /// Position of a cell.
     [[nodiscard]] Place at(const std::array<std::int32_t, 3>& cell) const noexcept;
     /// The bricks around all crossed cells and those between; none where there are no such.
     [[nodiscard]] BrickBox bricks() const noexcept;
@@ -141,7 +141,7 @@ class PairSurface {
             }
         }
     }
-    /// Whether a sheet reaches into a cell that is larger by `reach` on all sides.
+    /// Returns true if a sheet reaches into a cell enlarged by `reach` on all sides.
     [[nodiscard]] static bool meets(const Sheet& sheet, const std::array<std::int32_t, 3>& cell,
                                     double reach) noexcept {
         Sheet left = sheet;

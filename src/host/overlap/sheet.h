@@ -17,7 +17,7 @@ struct Sheet {
     /// A triangle that is cut to a box has 9 corners; the rest is for roundings.
     static constexpr std::uint32_t kMax = 16;
 
-    std::array<glm::dvec3, kMax> corners; // left as they are: no time for what is not used
+    std::array<glm::dvec3, kMax> corners; // uninitialised, to save time
     std::uint32_t count = 0;              ///< below 3: it is empty
     /// What the winding of the solid (1 inside, 0 outside) changes by behind it along +x, times the sign of its area in
     /// y and z; or kUnknownJump.
@@ -29,7 +29,7 @@ struct Sheet {
     /// Of the signed space between it and a plane across x.
     [[nodiscard]] double volumeTo(double x) const noexcept;
     void range(int axis, double& lo, double& hi) const noexcept;
-    /// Moves what is before a plane across x onto it.
+    /// Moves parts before a plane across x onto it.
     void flatten(double x) noexcept;
     /// Moves all of it onto that plane.
     void setX(double x) noexcept {

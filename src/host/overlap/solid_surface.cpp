@@ -19,7 +19,7 @@ namespace {
 
 using glm::dvec3;
 
-/// By place: the triangles that each is not certainly apart from.
+/// By place: the triangles that may intersect each triangle.
 using Others = std::vector<std::vector<std::size_t>>;
 
 Others othersOf(const SolidTriangles& triangles) {
@@ -100,7 +100,7 @@ double areaOf(const SolidTriangle& triangle) {
     return glm::length(glm::cross(c[1] - c[0], c[2] - c[0])) / 2;
 }
 
-/// By patch, its largest triangle: from there a ray tells most.
+/// The largest triangle of each patch: the best origin of a ray.
 std::vector<std::size_t> largestOfPatches(const SolidTriangles& triangles, Patches& patches) {
     std::vector<std::size_t> largest(triangles.count(), triangles.count());
     std::vector<double> area(triangles.count(), -1);

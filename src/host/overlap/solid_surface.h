@@ -11,11 +11,11 @@
 
 namespace voxtact::cpu {
 
-/// How the solid changes across a triangle: 1 where its normal leaves the solid, -1 where it enters it, 0 where both
-/// sides are inside or both outside.
+/// Change of the solid across a triangle: 1 if its normal leaves the solid, -1 if it enters, 0 if both sides are inside
+/// or outside.
 using Jump = std::int8_t;
 inline constexpr Jump kUnknownJump = 2;
-/// Not the same all over the triangle: its pieces have their own.
+/// Varies over the triangle: its pieces have their own.
 inline constexpr Jump kInPieces = 3;
 
 /// A part of a triangle.

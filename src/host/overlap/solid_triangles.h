@@ -38,7 +38,7 @@ inline constexpr std::array<std::array<double, 3>, 12> kRays{{{0.8191, 0.4717, 0
                                                               {0.5303, -0.7433, -0.4073},
                                                               {-0.2399, 0.3467, -0.9067},
                                                               {0.6113, 0.6703, 0.4201}}};
-/// Whether a ray may meet a box.
+/// Returns true if a ray may meet a box.
 [[nodiscard]] bool mayMeet(const glm::dvec3& origin, const glm::dvec3& direction, const SolidBox& box) noexcept;
 
 /// The triangles of a mesh with welded vertices, by their places in its arrays. Of triangles with the same vertices the
@@ -49,7 +49,7 @@ class SolidTriangles {
 
     [[nodiscard]] std::size_t count() const noexcept { return triangles_.size(); }
     [[nodiscard]] const SolidTriangle& at(std::size_t place) const noexcept { return triangles_[place]; }
-    /// What the winding number grows by from its front to its back. 0: it is left out, or padding.
+    /// Increase of the winding number from front to back. 0: ignored, or padding.
     [[nodiscard]] int weight(std::size_t place) const noexcept { return weights_[place]; }
     [[nodiscard]] SolidBox box(std::size_t place) const noexcept;
     /// Of all triangles, three each.
@@ -73,8 +73,8 @@ class SolidTriangles {
                 return true;
             });
     }
-    /// The winding number in front of a point of a triangle, that is on the side of its normal; nothing where rounding
-    /// does not let it be said. `stack`: triangles that the point is on; `weight`: of these together, by the normal.
+    /// Returns the winding number in front of a point of a triangle, on the side of its normal; empty if rounding hides
+    /// it. `stack`: triangles that the point is on; `weight`: of these together, by the normal.
     [[nodiscard]] std::optional<int> windingInFront(std::size_t place, const glm::dvec3& point,
                                                     std::span<const std::size_t> stack, int weight) const;
 

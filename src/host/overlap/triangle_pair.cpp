@@ -21,7 +21,8 @@ struct Axis {
     dvec3 along{};
     double scale = 0;
 
-    /// The certain sign of a point's product with it, or 0. `slack`: the product may be off by this, besides rounding.
+    /// Returns the certain sign of a point's product with it, or 0. `slack`: error of the product in addition to
+    /// rounding.
     [[nodiscard]] int sign(const dvec3& point, double slack = 0) const noexcept {
         const double product = glm::dot(along, point);
         const double error = kAxisError * scale * glm::length(point) + slack;
@@ -39,7 +40,7 @@ Axis crossed(const Axis& a, const dvec3& b) noexcept {
 
 using CornersOf3 = std::array<dvec3, 3>;
 
-/// Whether both are on different sides of a plane at right angles to the axis.
+/// Returns true if a plane perpendicular to the axis separates both.
 bool separates(const Axis& axis, const CornersOf3& a, const CornersOf3& b) noexcept {
     std::array<double, 3> ofA{};
     std::array<double, 3> ofB{};
@@ -80,7 +81,7 @@ bool noneShared(const CornersOf3& a, const CornersOf3& b) noexcept {
     return false;
 }
 
-/// Whether a plane through the origin has two directions on one side and two on the other; perceptron.
+/// Tests whether a plane through the origin separates two directions from two others, by a perceptron.
 bool divides(const std::array<dvec3, 2>& a, const std::array<dvec3, 2>& b) noexcept {
     constexpr int kRounds = 64;
     constexpr double kClear = 0x1p-30;

@@ -14,10 +14,10 @@ struct SolidTriangle {
     std::array<std::uint32_t, 3> vertices{};
 };
 
-/// Whether two triangles certainly have nothing in common but the vertices and the edge that they share by number.
+/// Returns true if two triangles certainly share only their common vertices and edge.
 [[nodiscard]] bool certainlyApart(const SolidTriangle& a, const SolidTriangle& b) noexcept;
 
-/// Whether a ray crosses a triangle.
+/// Result of a ray against a triangle.
 enum class Crossing : std::uint8_t { No, Leaves, Enters, Unknown };
 /// The triangle's corners relative to the ray's origin, none of which is off by more than `off`. Leaves: along the
 /// triangle's normal.

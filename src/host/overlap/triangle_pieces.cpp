@@ -15,7 +15,7 @@ namespace {
 using glm::dvec3;
 
 constexpr std::size_t kMaxPieces = 2048;
-/// Relative to the lengths that a height is made of: what is nearer to a plane is in it.
+/// Tolerance of a plane, relative to the lengths in a height.
 constexpr double kInPlane = 0x1p-44;
 
 struct Plane {
@@ -51,7 +51,7 @@ class PieceCut {
         return parts_.size() <= kMaxPieces;
     }
 
-    /// Whether all of another triangle is in the plane of this one.
+    /// Returns true if another triangle lies completely in the plane of this one.
     [[nodiscard]] bool isCoplanar(std::size_t other) const {
         return std::ranges::all_of(triangles_.at(other).corners, [&](const dvec3& corner) {
             const dvec3 off = corner - corner_;
@@ -116,7 +116,7 @@ class PieceCut {
         return SolidBox{box.lo - slack, box.hi + slack}.meets(triangles_.box(other));
     }
 
-    /// Of triangles that lie on each other, the first one has what all together change.
+    /// The first of coincident triangles has the change of all together.
     [[nodiscard]] Jump jumpOf(const UvPolygon& part, std::span<const std::size_t> coplanar) const {
         Uv mean;
         for (std::uint32_t i = 0; i < part.count; ++i) {

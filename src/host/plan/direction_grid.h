@@ -31,7 +31,7 @@ class DirectionGrid {
   public:
     static constexpr std::uint32_t kRhombi = 10;
 
-    /// The least one with that many directions or more; at least one.
+    /// Returns the smallest grid with at least this number of directions.
     explicit DirectionGrid(std::uint32_t directions);
 
     [[nodiscard]] std::uint32_t side() const noexcept { return side_; } ///< n

@@ -127,7 +127,7 @@ class Outside {
         }
     }
 
-    /// The border voxel at a position, in centred voxel coordinates; if it is inside, one beside it.
+    /// Returns the border voxel at a position, in centred voxel coordinates; for an inner position, an adjacent one.
     template <class Inside> [[nodiscard]] bool has(const dvec3& voxel, const Inside& inside) const {
         Place place{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -220,7 +220,7 @@ class EntrySearch {
     std::shared_ptr<const OpaquePart> part_;
     std::optional<VolumeSpace> space_; ///< of the labels
     std::size_t index_ = 0;            ///< of the label; none has the number of labels
-    std::optional<Outside> outside_;   ///< nothing where entries on the border are wanted
+    std::optional<Outside> outside_;   ///< empty if entries on the border are allowed
 };
 
 /// Normal of the surface at an entry: the mean over the adjacent entry triangles, weighted by area.

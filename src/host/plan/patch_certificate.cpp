@@ -8,10 +8,10 @@ namespace voxtact::cpu {
 
 namespace {
 
-constexpr double kNearlyRightAngle = 1.5; // radians, somewhat less: of cones as DirectionGrid::cone() has them
-/// A patch that is not soon known to be safe is halved, which makes it easier.
+constexpr double kNearlyRightAngle = 1.5; // radians, rounded down: of cones of DirectionGrid::cone()
+/// A patch that is not soon proven safe is halved, which makes the proof easier.
 constexpr std::uint64_t kSoon = 200;
-constexpr std::uint64_t kMost = 5000; // of a cell, which is not halved
+constexpr std::uint64_t kMost = 5000; // of a cell, which is never halved
 /// Relative to the spread of a patch's paths: smaller boxes are not divided.
 constexpr double kFinestPart = 1.0 / 8;
 

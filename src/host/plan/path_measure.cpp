@@ -96,7 +96,7 @@ StopReason PathMeasure::endOf(const Bounds& clearance, bool exhausted) const {
     return exhausted ? StopReason::Budget : StopReason::Rounding;
 }
 
-/// The margin is between the bounds: it is asked for alone.
+/// The margin is between the bounds: searches for it only.
 void PathMeasure::decide(const Way& way, PlannedPath& out) {
     const double wanted = scene_.margin + scene_.radius;
     double lo = kInfinity;

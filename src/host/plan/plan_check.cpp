@@ -21,7 +21,7 @@ bool isFinite(const Vec3& v) {
     return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
 }
 
-/// Farther away a path's coordinates say nothing: they are steps of more than a tenth of a micrometre apart.
+/// Farther away, coordinates are too coarse: they have steps above a tenth of a micrometre.
 bool isPlace(const Vec3& v) {
     return isFinite(v) && std::hypot(v[0], v[1], v[2]) <= kFarthest;
 }

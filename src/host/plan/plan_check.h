@@ -5,7 +5,7 @@
 
 namespace voxtact::cpu {
 
-/// Refuses what HostEngine::ask() refuses before it looks along any direction.
+/// Checks of HostEngine::ask() before it tests any direction.
 [[nodiscard]] Result<void> checkPlan(const Plan& task);
 
 } // namespace voxtact::cpu

@@ -84,7 +84,7 @@ struct Row {
     std::vector<PlannedPath*> paths;
 };
 
-/// Rows of neighbours: what one comes near is soon tried for the next.
+/// Rows of neighbours: the nearest obstacle of one path is a good start for the next.
 std::vector<Row> rowsOf(const PlanScene& scene, std::vector<PlannedPath>& paths) {
     std::vector<Row> rows(1);
     std::uint32_t last = 0;

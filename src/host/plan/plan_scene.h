@@ -18,7 +18,7 @@ namespace voxtact::cpu {
 struct Obstacle {
     const PlanObstacle* given = nullptr;
     std::shared_ptr<const OpaquePart> part;
-    std::optional<LabelSet> labels; ///< what of the part is an obstacle; none: all
+    std::optional<LabelSet> labels; ///< labels of the part that are obstacles; none: all
 
     [[nodiscard]] SearchedPart searched() const {
         return labels ? SearchedPart(*labels, *given->labels) : SearchedPart(*part);

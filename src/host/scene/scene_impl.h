@@ -34,7 +34,7 @@ struct VolumeImpl {
 
 struct TransferFunctionImpl {
     std::uint64_t id = nextObjectId();
-    std::vector<ControlPoint> points; ///< for the projection certified, and clearances
+    std::vector<ControlPoint> points; ///< for the projection certified, and distances
     ValueRange domain;                ///< of the table, for the others
     std::vector<float> table;
 };
@@ -67,7 +67,7 @@ struct MeshImpl {
 
     /// The mesh's own indices, as it was made from.
     [[nodiscard]] std::vector<std::uint32_t> indices() const;
-    /// Puts its vertices elsewhere; `checked` and `from` are of these. What it throws leaves it as it was.
+    /// Moves its vertices; `checked` and `from` belong to the new ones. If it throws, nothing changes.
     void bend(std::span<const float> positions, const MeshFacts& checked, const MeshOrigin& from);
 
     std::uint64_t id = nextObjectId(); ///< another one after every update

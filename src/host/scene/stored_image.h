@@ -52,7 +52,7 @@ struct StoredImage {
 struct BrickRanges {
     explicit BrickRanges(const StoredImage& image);
 
-    /// Looks again at the bricks that a box of voxels has a part in. Not for an empty box.
+    /// Updates the bricks that a box of voxels meets. Not for an empty box.
     void update(const StoredImage& image, const VoxelBox& edited);
 
     std::array<std::int32_t, 3> count{};

@@ -122,7 +122,7 @@ std::vector<std::uint32_t> indicesOf(const LabelData& labels, std::span<const st
     return indices;
 }
 
-/// Refuses what checkLabels() refuses.
+/// Checks labels like checkLabels().
 Result<LabelSets> setsOf(HostEngineImpl& impl, const BatchItem& item, const std::shared_ptr<const OpaquePart>& part,
                          std::uint64_t labels, const std::vector<std::uint32_t>& indices) {
     constexpr std::size_t kMostKept = 4;

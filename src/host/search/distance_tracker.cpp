@@ -69,14 +69,14 @@ struct DistanceTrackerImpl {
     TrackerDesc desc;
     ThreadMemory memory;
     OccupancyCache<OpaquePart, 2> parts;
-    TrackedScene scene; ///< of all that follows; no object has the id 0
+    TrackedScene scene; ///< of all members below; no object has the id 0
     Mat4 lastPose{};
     Mat4 lookedAt{}; ///< the pose of the last search
     Bounds known;    ///< of that pose
 };
 
 TrackedDistance DistanceTrackerImpl::track(const BatchItem& item, double threshold) {
-    /// Moves like the last one, mm, that a search looks ahead.
+    /// Number of moves like the last one, mm, that a search covers.
     constexpr double kAhead = 32;
     const Mat4& pose = item.world_from_object[0];
     const Box& box = item.mesh->impl().facts.bounds;

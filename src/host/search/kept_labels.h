@@ -11,7 +11,7 @@ namespace voxtact::cpu {
 
 using LabelSets = std::shared_ptr<const std::vector<LabelSet>>;
 
-/// The labels that were asked for last.
+/// The labels of the last question.
 struct KeptLabels {
     std::shared_ptr<const OpaquePart> part; ///< keeps its address from being another's
     std::uint64_t labels = 0;               ///< fingerprint of the map

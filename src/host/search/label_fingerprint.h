@@ -7,9 +7,8 @@
 
 namespace voxtact::cpu {
 
-/// Tells one label map from another by what it holds: maps are the caller's, who may edit one in place, or free it and
-/// make another where it was. Of different maps one in 2^64 has the
-/// same.
+/// Identifies a label map by its contents: the caller may edit a map in place, or replace it at the same address.
+/// Collisions have a probability of 2^-64.
 [[nodiscard]] std::uint64_t labelFingerprint(const LabelData& labels) noexcept;
 
 } // namespace voxtact::cpu

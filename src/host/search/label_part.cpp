@@ -9,7 +9,7 @@
 
 namespace voxtact::cpu {
 
-/// Cells beside the image's faces have one layer of octants in the domain.
+/// Cells at the image's faces have one layer of octants in the domain.
 SearchedPart::Octants SearchedPart::octantsOf(const PiecePlace& place) const noexcept {
     Octants out;
     for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -28,7 +28,7 @@ constexpr double kGreatest = 1e100;
 
 void MeshPlace::begin(const MeshImpl& mesh, const VolumeSpace& space, const Mat4& world_from_object,
                       const std::optional<Sweep>& sweep) {
-    // Another mesh may be where one was before; after 2^32 pairs nothing is in place.
+    // Another mesh may have the same address; after 2^32 pairs all places are invalid.
     const bool fits = whole_ && clusters_.size() == mesh.clusters.size() && vertices_[2].size() == mesh.x.size() &&
                       boxes_.size() == mesh.tree.levels() && boxes_[0].size() == mesh.tree.boxes(0).size();
     if (!fits || ++pair_ == 0) {

@@ -14,8 +14,8 @@
 
 namespace voxtact::cpu {
 
-/// A mesh at a pose in the space of a volume: boxes and triangles are placed when they are first asked for.
-/// One thread's; kept from pair to pair for its memory.
+/// A mesh at a pose in the space of a volume: places boxes and triangles at first use. For one thread; reused between
+/// pairs for its memory.
 class MeshPlace {
   public:
     /// All must live until the next call. `sweep`: where else the mesh may be; in the world's coordinates.
@@ -36,7 +36,7 @@ class MeshPlace {
         const glm::dvec3 point = sweep_->near(placed, from);
         return placed.own > 0 ? towards(from, point, placed.own) : point;
     }
-    /// Returns the point that comes nearest, at its pose.
+    /// Returns the nearest point, at its pose.
     [[nodiscard]] glm::dvec3 nearest(const PlacedTriangle& triangle, const glm::dvec3& from) const noexcept {
         return sweep_ ? sweep_->nearest(triangle, from) : triangle.near(from);
     }
@@ -79,7 +79,7 @@ class MeshPlace {
     };
     /// `own`: PlacedBox::own.
     [[nodiscard]] PlacedBox placed(const RunBox& box, double own) const;
-    /// A point that comes so much closer to another.
+    /// A point, and its maximum approach to another.
     [[nodiscard]] static glm::dvec3 towards(const glm::dvec3& to, const glm::dvec3& from, double by) noexcept;
     void placeCluster(std::uint32_t cluster);
     void placeSwept(std::uint32_t cluster);

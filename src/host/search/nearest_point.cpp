@@ -161,7 +161,7 @@ class OpaqueSearch {
     /// mm^2: cells from this distance on are pruned.
     [[nodiscard]] double worthwhile() const { return best_.distance * best_.distance; }
 
-    /// The nearest cell first, then other cells that are still nearer: most bricks have none.
+    /// The nearest cell first, then cells that may be nearer: most bricks have none.
     void openBrick(const NodePlace& brick) {
         const BrickCells& known = part_.cells(volume_, brick);
         const CellSquares squares(*this, brick);

@@ -10,7 +10,7 @@
 
 #include <glm/vec3.hpp>
 
-/// Points that are near, soon: what they are worth is for others to say. Local coordinates (VolumeSpace).
+/// Finds near points quickly, without a guarantee. Local coordinates (VolumeSpace).
 namespace voxtact::cpu {
 
 struct MeshPoint {

@@ -5,8 +5,8 @@
 
 namespace voxtact::cpu {
 
-/// Returns the opaque point within what single precision rounds off a witness point of a touch, or the given one where
-/// there is none in its cell. World mm.
+/// Returns the opaque point within single-precision rounding of a witness point of a touch, or the given point if its
+/// cell has none. World mm.
 [[nodiscard]] Vec3 opaqueNextTo(const PairAt& at, const Vec3& witness);
 
 } // namespace voxtact::cpu

@@ -17,7 +17,7 @@ namespace voxtact::cpu {
 /// A place in a pyramid.
 using NodePlace = std::array<std::int32_t, 3>;
 
-/// The bricks that are examined, and above them boxes of 2^3, 4^3, ... bricks with at least one such, up to one box.
+/// The tested bricks, and above them boxes of 2^3, 4^3, ... bricks with at least one of them, up to one box.
 class BrickPyramid {
   public:
     BrickPyramid() = default;
@@ -67,13 +67,12 @@ struct PartCell {
 
 struct PieceRows;
 
-/// One volume under one transfer function, threshold and resolution, as a clearance sees it: made once for all poses.
-/// Thread-safe.
+/// One volume under one transfer function, threshold and resolution, for distance queries at all poses. Thread-safe.
 class OpaquePart {
   public:
     OpaquePart(const VolumeImpl& volume, const TransferFunctionImpl& function, double threshold, double resolution);
 
-    /// `volume` is in what follows the one of the constructor.
+    /// `volume` below is that of the constructor.
     [[nodiscard]] const BrickCells& cells(const VolumeImpl& volume, const NodePlace& brick) const {
         return occupancy.cells(volume, brick);
     }

@@ -27,15 +27,15 @@ struct PairAt {
     const BatchItem& item;
     const OpaquePart& part;
     Mat4 world_from_object;
-    CancelFlag cancel = nullptr;     ///< what a cancelled search or touch says means nothing
+    CancelFlag cancel = nullptr;     ///< the result of a cancelled search or touch is undefined
     const MeshImpl* shape = nullptr; ///< the mesh of the item after a bend; null: as it is
 
     [[nodiscard]] const VolumeImpl& volume() const { return item.volume->impl(); }
     [[nodiscard]] const MeshImpl& mesh() const { return shape != nullptr ? *shape : item.mesh->impl(); }
 
-    /// How far the surface that the mesh stands for may be from its triangles, mm.
+    /// Maximum distance of the represented surface from the triangles, mm.
     [[nodiscard]] double deflection() const;
-    /// Whether it touches, as the projection `certified` says. `point` is set where it certainly does.
+    /// Decides the touch, like the projection `certified`. Sets `point` if it certainly touches.
     [[nodiscard]] CertifiedTally touch(std::optional<TouchPoint>& point) const;
     /// The closest points. `sweep`: where else the mesh may be; in the world's coordinates. `from`: as for
     /// ClosestSearch.

@@ -37,11 +37,11 @@ struct PlacedTriangle {
     [[nodiscard]] glm::dvec3 near(const glm::dvec3& from) const noexcept { return closestPoint(corners, from); }
 };
 
-/// Lanes of the longest vector that is used. Rows are aligned for it, and as long as some such.
+/// Lanes of the longest vector. Rows are aligned for it, and multiples of it long.
 inline constexpr std::size_t kMostDoubles = 8;
 inline constexpr std::size_t kRowAlignment = kMostDoubles * sizeof(double);
 
-/// The triangles of a cluster in place, row by row: what PlacedTriangle has of each, for vectors.
+/// The placed triangles of a cluster, row by row: the vector form of PlacedTriangle.
 struct alignas(kRowAlignment) PlacedCluster {
     using Row = std::array<double, kClusterTriangles>;
     std::array<std::array<Row, 3>, 3> corners{}; ///< of each corner x, y and z

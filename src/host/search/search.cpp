@@ -75,7 +75,7 @@ bool ClosestSearch::goesOn() {
         return false;
     }
     if (decides() && found_.lo <= 0 && (!goal_.untilMet || ++stepsInDoubt_ > kMostInDoubt)) {
-        return false; // it is not apart, and that is all that is asked
+        return false; // it is not separated, which answers the query
     }
     if (found_.hi <= goal_.enough || (!dive_ && (heap_.empty() || heap_.least() >= cut()))) {
         return false;
@@ -88,7 +88,7 @@ bool ClosestSearch::goesOn() {
     return !found_.exhausted;
 }
 
-/// A quick look: whether some cell may be opaque that is as near as that to a box of the mesh.
+/// Tests quickly whether a cell within that distance of a box of the mesh may be opaque.
 bool ClosestSearch::mayBeWithin(double distance) const {
     if (!(distance + error_.absolute < kInfinity)) {
         return true;

@@ -30,14 +30,14 @@ struct SearchGoal {
     double finest = 0;          ///< mm: stop when upper - lower is at most this
     std::uint64_t maxSteps = 0;
     std::optional<glm::dvec3> known{}; ///< local: a point that certainly is searched for. Not with a sweep
-    bool measures = false; ///< a sweep that only shifts: how near it comes is asked, not only whether it is apart
+    bool measures = false; ///< a sweep that only shifts: measures the distance instead of testing separation
     bool coarsely = false; ///< boxes below the finest size are not divided, even if undecided
     bool untilMet = false; ///< also searches for a point within `enough` if the lower bound is known to be 0
 };
 
-/// Looks for the opaque point that is closest to a mesh, best first (Hart, Nilsson and Raphael, 1968): over pairs of a
-/// box of the mesh's tree and a box of the volume's, down to triangles and pieces of cells. One thread's; kept from
-/// pair to pair for its memory.
+/// Finds the opaque point closest to a mesh, best first (Hart, Nilsson and Raphael, 1968): over pairs of a box of the
+/// mesh's tree and a box of the volume's, down to triangles and pieces of cells. For one thread; reused between pairs
+/// for its memory.
 class ClosestSearch {
   public:
     /// `searched`: of that part. `from`: where to begin, or null: with all of both.
@@ -86,7 +86,7 @@ class ClosestSearch {
     /// For searches that end before rows and cells are reused.
     [[nodiscard]] NearMemory nearMemory() noexcept { return {rows_, cells_, walks_}; }
     [[nodiscard]] Direction from(const Pair& pair, const glm::dvec3& point);
-    /// Sets what `corners_` is about.
+    /// Sets the triangle of `corners_`.
     void gather(const Pair& pair);
     [[nodiscard]] double cut() const noexcept {
         // A point of a swept mesh shows only that it is not apart.

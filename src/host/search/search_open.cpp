@@ -108,7 +108,7 @@ void ClosestSearch::openBox(const Pair& pair) {
     }
 }
 
-/// A box of the mesh, and what may be opaque in one of the volume.
+/// A box of the mesh, and the opaque part of a box of the volume.
 void ClosestSearch::offerBox(Pair pair, const PlacedBox& box, const OpaqueBox& region) {
     pair.lo = std::max(pair.lo, boxes_.gap(region, box.lo, box.hi));
     if (closes(pair.lo)) {

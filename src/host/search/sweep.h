@@ -42,7 +42,7 @@ struct Sweep {
     /// Like near(), over all points of an object.
     [[nodiscard]] glm::dvec3 near(const PlacedBox& box, const glm::dvec3& from) const noexcept;
     [[nodiscard]] glm::dvec3 near(const PlacedTriangle& triangle, const glm::dvec3& from) const noexcept;
-    /// Returns the point of a triangle that comes nearest, at its pose.
+    /// Returns the nearest point of a triangle, at its pose.
     [[nodiscard]] glm::dvec3 nearest(const PlacedTriangle& triangle, const glm::dvec3& from) const noexcept;
 
   private:
@@ -67,7 +67,7 @@ class Direction {
 
     [[nodiscard]] const glm::dvec3& normal() const noexcept { return normal_; }
     [[nodiscard]] double length() const noexcept { return length_; }
-    /// One by the length; 0 where that is too short for its square to be right.
+    /// Returns one over the length; 0 if its square is inexact.
     [[nodiscard]] double inverse() const noexcept {
         constexpr double kShortest = 1e-140;
         return length_ > kShortest ? 1 / length_ : 0;

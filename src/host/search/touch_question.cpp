@@ -35,8 +35,8 @@ bool isCurved(const Batch& batch) {
                                [](const BatchItem& item) { return item.mesh->impl().facts.deflection > 0; });
 }
 
-/// What touches is within every margin, and that is soon known. No: the surface that the triangles stand for is farther
-/// than the margin, too. Yes is about the triangles.
+/// A touch is within every margin, and fast to find. *No* includes the surface that the triangles represent; *yes* is
+/// about the triangles.
 void decide(const PairAt& at, const Touch& question, ThreadMemory& memory, PairTouch& out) {
     std::optional<TouchPoint> point;
     const CertifiedTally touch = at.touch(point);

@@ -32,7 +32,7 @@ class Workers {
                                                          double threshold, double resolution = kDefaultResolution) {
         return parts_.get(volume, function, threshold, resolution);
     }
-    /// Returns the whole volume as a region, whatever its values.
+    /// Returns the whole volume as a region, for any values.
     [[nodiscard]] std::shared_ptr<const OpaquePart> whole(const VolumeImpl& volume) {
         return parts_.get(volume, allOpaque_, kDefaultThreshold, kDefaultResolution);
     }

@@ -11,8 +11,7 @@ namespace voxtact::cpu {
 
 using CertifiedOccupancies = OccupancyCache<CertifiedOccupancy, 2>;
 
-/// The answers of a checked batch in the projection `certified`. What they say of a call that is cancelled means
-/// nothing.
+/// The answers of a checked batch in the projection `certified`. The results of a cancelled call are undefined.
 [[nodiscard]] BatchAnswer runCertified(const Batch& batch, const Cancellation& cancel, std::uint32_t pairs,
                                        const Count& desc, ThreadPool& pool, CertifiedOccupancies& occupancies);
 

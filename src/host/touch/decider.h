@@ -21,8 +21,8 @@
 
 namespace voxtact::cpu {
 
-/// Goes through a job's fragments. `Mode::kCounts`: nothing but how many there are is asked. A mode is a type of the
-/// one file that instantiates this with it: compilers put in line what nobody else can call.
+/// Decides a job's fragments. `Mode::kCounts`: only their number is needed. A mode is a type local to the file that
+/// instantiates this, so that compilers inline it.
 template <class Kept, class Mode> class Decider {
     using CertifiedTriangle = shader::CertifiedTriangle;
     using CertifiedVertex = shader::CertifiedVertex;
@@ -439,12 +439,12 @@ template <class Kept, class Mode> class Decider {
     shader::OpaqueValues opaque_;
     CertifiedTally tally_;
     Triangle triangle_;              ///< at hand
-    PreciseFragments<Kept> precise_; ///< of a triangle that had some which were undecided
+    PreciseFragments<Kept> precise_; ///< of a triangle with undecided fragments
     std::vector<Open> open_;
     PlacedVertices placed_;
     BoxCells boxes_;
     std::optional<Counting> counting_; ///< once a run is counted
-    shader::CertifiedBounds delta_{};  ///< not less than of any triangle: of the mesh, or of the box asked last
+    shader::CertifiedBounds delta_{};  ///< upper bound for all triangles of the mesh, or of the last box
 };
 
 } // namespace voxtact::cpu

@@ -32,8 +32,8 @@ class FragmentFilter {
     /// Tests the fragments added since the last call, and empties the list.
     void test(const shader::CertifiedItem& item, const shader::OpacityBounds& bounds) noexcept;
 
-    /// For the last tested fragments: true if certifiedBegin() leaves nothing, or certifiedSettle() finds nothing
-    /// opaque.
+    /// For the last tested fragments: true if certifiedBegin() leaves no polygon, or certifiedSettle() finds no opaque
+    /// point.
     [[nodiscard]] bool isNone(std::size_t i) const noexcept { return lanes_.none[i] != 0; }
     /// certifiedSettle() finds it certain.
     [[nodiscard]] bool isCertain(std::size_t i) const noexcept { return lanes_.certain[i] != 0; }

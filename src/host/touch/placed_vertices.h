@@ -10,12 +10,12 @@
 
 namespace voxtact::cpu {
 
-/// The vertices of one cluster of a pair in voxel space, the one that was asked for last.
+/// The vertices of the last requested cluster of a pair, in voxel space.
 class PlacedVertices {
     static constexpr std::uint32_t kNone = 0xffffffffU;
 
   public:
-    /// The most vertices that a cluster has, padding included.
+    /// Maximum vertices of a cluster, padding included.
     static constexpr std::size_t kMost = 3 * std::size_t{kClusterTriangles} + kMeshAlignment;
 
     /// Both must outlive it.

@@ -16,7 +16,7 @@ template <class Kept> class PreciseFragments {
     struct Found {
         int verdict = CERTIFIED_UNDECIDED;
         shader::CertifiedCorners corners; ///< with which it was found
-        shader::CertifiedWitness witness; ///< where it is certain
+        shader::CertifiedWitness witness; ///< if it is certain
     };
 
     /// Both must outlive it.

@@ -8,8 +8,8 @@
 #include <string_view>
 
 /// Compressed pixels of one frame. `cells` has rows x columns entries and gets the bits of each pixel as they would
-/// stand in the file uncompressed. What the compressed data says of its size must be what the file says, before
-/// anything is decoded. Errors say what is wrong with it, without the file.
+/// stand in the file uncompressed. The size in the compressed data must match the file, before anything is decoded.
+/// Errors say what is wrong with it, without the file.
 namespace voxtact::io {
 
 [[nodiscard]] Result<void> decodeRle(std::string_view bytes, const DicomImage& image, std::span<std::uint32_t> cells);

@@ -35,7 +35,7 @@ constexpr std::array<DicomSyntax, 14> kSyntaxes{{
 constexpr const DicomSyntax* kUntyped = &kSyntaxes[0];
 constexpr const DicomSyntax* kTyped = &kSyntaxes[1];
 
-/// What those are that people have and this cannot read.
+/// Common transfer syntaxes that are not supported.
 std::string_view nameOfSyntax(std::string_view uid) {
     constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kNames{{
         {"1.2.840.10008.1.2.1.98", "encapsulated uncompressed"},
@@ -75,7 +75,7 @@ const DicomSyntax* syntaxWithoutHeader(std::string_view head) {
     return numberAt<std::uint32_t>(head, 4) <= kLongest ? kUntyped : nullptr;
 }
 
-/// How a file begins: with 128 bytes and a magic word, with the meta header alone, or like a data set.
+/// Beginnings of files: 128 bytes and a magic word, the meta header only, or a data set.
 enum class Beginning { Magic, Meta, DataSet, Other };
 
 constexpr std::size_t kMagicAt = 128;
@@ -92,7 +92,7 @@ Beginning beginningOf(DicomStream& stream) {
     return syntaxWithoutHeader(head.substr(0, 8)) != nullptr ? Beginning::DataSet : Beginning::Other;
 }
 
-/// What the meta header says, or where it says nothing, what the data set looks like.
+/// Returns the transfer syntax of the meta header or, without one, of the data set's form.
 Result<const DicomSyntax*> syntaxOf(const DicomFile& file, DicomStream& stream) {
     if (const std::string* uid = file.set.find(dicom::kTransferSyntax); uid != nullptr) {
         return syntaxNamed(file.path, *uid);
@@ -150,7 +150,7 @@ Result<std::optional<DicomFile>> dicomFileIn(const std::filesystem::path& path, 
     file.syntax = *syntax;
     file.dataSetAt = stream.position();
     if (file.syntax->deflated) {
-        // A bomb of gigabytes takes seconds; what stands beside the pixels is short.
+        // A bomb of gigabytes takes seconds; data other than pixels are short.
         constexpr std::uint64_t kBeside = std::uint64_t{1} << 26;
         VOXTACT_TRY(stream.inflateFromHere(kBeside));
     }
@@ -161,7 +161,7 @@ Result<std::optional<DicomFile>> dicomFileIn(const std::filesystem::path& path, 
     }
     DicomWalker data(stream, *file.syntax);
     if (!data.dataSet(file.set) || (data.pixels() && !data.behindPixels(file.zeros))) {
-        // What only looked like DICOM is left alone.
+        // Ignores files that only look like DICOM.
         constexpr std::size_t kSure = 3;
         if (beginning == Beginning::DataSet && data.elements() < kSure) {
             return std::optional<DicomFile>();
@@ -181,7 +181,7 @@ Result<std::optional<DicomFile>> readDicomFile(const std::filesystem::path& path
     Result<DicomStream> stream = DicomStream::open(path);
     VOXTACT_TRY(stream);
     Result<std::optional<DicomFile>> file = dicomFileIn(path, *stream);
-    // Whatever was made of what came before, which may not even look like DICOM.
+    // Whatever came before, which may not even look like DICOM.
     return stream->failed() ? readingStopped(path) : std::move(file);
 }
 

@@ -87,7 +87,7 @@ inline constexpr std::string_view kRtStructClass = "1.2.840.10008.5.1.4.1.1.481.
 /// "(0028,0010)"
 [[nodiscard]] std::string toText(DicomTag tag);
 
-/// How the pixels are stored.
+/// Storage of the pixels.
 enum class DicomCoding { Native, Rle, Jpeg, JpegLs, Jpeg2000 };
 
 struct DicomSyntax {
@@ -136,9 +136,8 @@ struct DicomFile {
     std::uint64_t zeros = 0;    ///< at the end, which fill a block
 };
 
-/// Walks the whole file; what is compressed is inflated to its end. None where the file is no DICOM file; a file that
-/// is one and whose elements do not fit into it or make no sense is refused. Reads no pixels, and takes little memory
-/// whatever the file claims.
+/// Walks the whole file; inflates compressed data to its end. Empty if the file is no DICOM file; refuses a DICOM file
+/// with invalid elements. Reads no pixels, and needs little memory for any claim of the file.
 [[nodiscard]] Result<std::optional<DicomFile>> readDicomFile(const std::filesystem::path& path);
 
 } // namespace voxtact::io

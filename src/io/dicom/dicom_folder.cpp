@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Files that hold no image by what they say they are (SOP classes, PS3.6): directories, reports, plans, measurements.
+/// SOP classes without an image (PS3.6): directories, reports, plans, measurements.
 bool holdsNoImage(const DicomFile& file) {
     constexpr std::array<std::string_view, 10> kClasses{
         "1.2.840.10008.1.3.10",          // DICOMDIR
@@ -48,8 +48,7 @@ struct Survey {
     bool hasDirectory = false;
 };
 
-/// Regular files, and links to them, by name. A link to nothing, and what cannot be examined, is refused: it may be a
-/// slice.
+/// Lists regular files, and links to them, by name. Refuses dangling links and inaccessible files: they may be slices.
 Result<std::vector<fs::path>> filesOf(const fs::path& folder) {
     std::error_code problem;
     std::vector<fs::path> paths;
@@ -169,7 +168,7 @@ Result<void> chooseSeries(const fs::path& folder, std::string_view wanted, std::
     return {};
 }
 
-/// What is compressed may claim to be anything; what series really become is far below a thousand times their files.
+/// Compressed data may claim any size; real series are far below a thousand times their files.
 Result<void> checkExpansion(const fs::path& folder, const std::vector<DicomFile>& files,
                             const std::vector<DicomImage>& images) {
     constexpr std::uint64_t kLet = std::uint64_t{1} << 28;
@@ -229,7 +228,7 @@ bool mapsToRealWorld(const DicomDataSet& set) {
     return set.items(dicom::kRealWorldMapping) != nullptr || in(dicom::kShared) || in(dicom::kPerFrame);
 }
 
-/// What of the files is odd and harmless, or not used.
+/// Harmless oddities and unused properties of the files.
 void noteOddities(const Survey& found, const Stack& stack, std::vector<std::string>& notes) {
     const std::vector<DicomFile>& files = found.images;
     const auto count = [](const auto& list, auto&& is) {

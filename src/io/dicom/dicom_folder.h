@@ -11,9 +11,8 @@
 namespace voxtact::io {
 
 /// The one DICOM series in a folder, or that with the SeriesInstanceUID of the options, as a stack of slices in real
-/// units. The files are read here, element by element, so that nothing in them is assumed, and no library is given what
-/// was not checked. Other files are left alone; a DICOM file that cannot be read is refused, since it may be a slice.
-/// Memory: the image and one frame.
+/// units. Reads the files element by element, without assumptions, and passes only checked data to libraries. Ignores
+/// other files; a DICOM file that cannot be read is refused, since it may be a slice. Memory: the image and one frame.
 [[nodiscard]] Result<StoredImage> readDicomFolder(const std::filesystem::path& folder, const VolumeReadOptions& options,
                                                   std::vector<std::string>& notes);
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 /// JPEG (ITU-T T.81) of one component with Huffman codes: baseline and extended sequential at 8 and 12 bits, and
-/// lossless. Image libraries read 8 bits at most, and what reads more stops the program at damaged data.
+/// lossless. Image libraries read at most 8 bits, or end the program on damaged data.
 namespace voxtact::io {
 
 namespace {
@@ -18,7 +18,7 @@ namespace {
 constexpr unsigned kMarker = 0xFF;
 constexpr unsigned kFirstRestart = 0xD0;
 
-/// Where the coefficients of a block go, in the order in which they come.
+/// Positions of the coefficients of a block, in the order of the stream.
 constexpr std::array<std::uint8_t, 64> kZigzag{0,  1,  8,  16, 9,  2,  3,  10, 17, 24, 32, 25, 18, 11, 4,  5,
                                                12, 19, 26, 33, 40, 48, 41, 34, 27, 20, 13, 6,  7,  14, 21, 28,
                                                35, 42, 49, 56, 57, 50, 43, 36, 29, 22, 15, 23, 30, 37, 44, 51,
@@ -55,7 +55,7 @@ class BitReader {
         drop(count);
         return bits;
     }
-    /// Whether more was taken than was there.
+    /// Returns true if more bits were read than exist.
     [[nodiscard]] bool isExhausted() const { return made_ * 8 > count_; }
 
     /// Goes behind the marker that ends this part.
@@ -334,7 +334,7 @@ Result<void> Decoder::scan(std::size_t at, std::size_t end) {
         }
         return lossless(bits, constants_[constant], first, shift);
     }
-    // First and last coefficient mean nothing here, and some writers put other numbers there.
+    // First and last coefficient are meaningless here, and some writers set other numbers.
     if (shift != 0 || !others_[rest].isThere || !hasQuantization_[quantizationTable_]) {
         return damaged("a scan's parameters");
     }

@@ -27,7 +27,7 @@ std::uint32_t bigEndian(std::string_view bytes, std::size_t at, std::size_t coun
     return value;
 }
 
-/// The code stream itself, where it stands in the boxes of a JP2 file; some writers put it there.
+/// Returns the code stream; some writers wrap it in the boxes of a JP2 file.
 std::string_view codeStream(std::string_view bytes) {
     constexpr std::size_t kBox = 8;
     if (!bytes.starts_with("\0\0\0\x0CjP  "sv)) {
@@ -78,7 +78,7 @@ Result<void> checkSize(std::string_view bytes, const DicomImage& image) {
     return {};
 }
 
-/// What the library's stream reads from.
+/// Source of the library's stream.
 struct Source {
     std::string_view bytes;
     std::size_t at = 0;

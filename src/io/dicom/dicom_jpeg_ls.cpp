@@ -19,7 +19,7 @@ constexpr unsigned kParameters = 0xF8;
 constexpr unsigned kScan = 0xDA;
 constexpr unsigned kInterval = 0xDD;
 
-/// How long runs are that one bit stands for, as powers of two (J).
+/// Lengths of runs per bit, as powers of two (J).
 constexpr std::array<unsigned, 32> kRunBits{0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2,  2,  3,  3,  3,  3,
                                             4, 4, 5, 5, 6, 6, 7, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 
@@ -39,7 +39,7 @@ class BitReader {
         count_ -= count;
         return static_cast<unsigned>(held_ >> count_) & ((1U << count) - 1);
     }
-    /// Whether more was taken than was there.
+    /// Returns true if more bits were read than exist.
     [[nodiscard]] bool isExhausted() const { return made_ > count_; }
 
   private:
@@ -75,7 +75,7 @@ struct Parameters {
     int reset = 64;
 };
 
-/// C.2.4.1.1: what holds where the file does not say it.
+/// C.2.4.1.1: default parameters.
 void fillIn(Parameters& p, unsigned precision) {
     p.maxval = p.maxval == 0 ? (1 << precision) - 1 : p.maxval;
     p.reset = p.reset == 0 ? 64 : p.reset;
@@ -164,7 +164,7 @@ class Scan {
         return k;
     }
 
-    /// A.5.3: -1 for what no encoder writes.
+    /// A.5.3: -1 for codes that no encoder writes.
     int mapped(unsigned k, unsigned limit) {
         unsigned high = 0;
         while (high < limit && bits_.take(1) == 0) {
@@ -335,7 +335,7 @@ class Decoder {
     [[nodiscard]] unsigned byte(std::size_t at) const { return static_cast<unsigned char>(bytes_[at]); }
     [[nodiscard]] unsigned word(std::size_t at) const { return byte(at) << 8U | byte(at + 1); }
 
-    /// What is wrong with it, or null.
+    /// Returns the error, or null.
     const char* segment(unsigned marker, std::size_t at, std::size_t end) {
         constexpr unsigned kFirstApplication = 0xE0;
         constexpr unsigned kComment = 0xFE;

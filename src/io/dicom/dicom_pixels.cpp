@@ -11,7 +11,7 @@ namespace voxtact::io {
 
 namespace {
 
-/// The pieces of each frame: one each, or what the table of offsets says.
+/// Returns the pieces of each frame: one each, or by the table of offsets.
 Result<std::vector<std::vector<DicomPiece>>> piecesOfFrames(const DicomFile& file, std::uint32_t frames) {
     const DicomPixelData& data = *file.pixels;
     std::vector<std::vector<DicomPiece>> result(frames);

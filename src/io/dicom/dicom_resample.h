@@ -24,20 +24,20 @@ class DicomResampler {
                                                        const std::vector<DicomSlice>& slices);
 
     [[nodiscard]] const Grid& grid() const noexcept { return grid_; }
-    /// Voxels of the slices (x fastest, slice by slice) at the grid's voxels: linear between the two slices around a
-    /// voxel, and bilinear in each, in double precision. Voxels outside of a slice that they need get the least value
-    /// of all. Adds a note.
+    /// Interpolates the voxels of the slices (x fastest, slice by slice) at the grid's voxels: linear between the two
+    /// slices around a voxel, and bilinear in each, in double precision. Voxels outside a slice that they need get the
+    /// minimum of all voxels. Adds a note.
     [[nodiscard]] StoredImage resample(StoredType type, const std::vector<std::byte>& voxels,
                                        std::vector<std::string>& notes) const;
 
   private:
-    /// Where a slice is: voxel (x, y) of the grid is its pixel (x + across, y + down).
+    /// Position of a slice: voxel (x, y) of the grid is its pixel (x + across, y + down).
     struct Place {
         double across = 0;
         double down = 0;
         double height = 0; ///< mm above the first slice
     };
-    /// What a slice of the grid is made of: (1 - share) * slice + share * (slice + 1).
+    /// Sources of a slice of the grid: (1 - share) * slice + share * (slice + 1).
     struct Blend {
         std::size_t slice = 0;
         double share = 0;

@@ -88,7 +88,7 @@ Result<void> checkBits(const DicomFile& file, const DicomImage& image) {
                                          std::to_string(image.bitsStored) + " and HighBit " +
                                          std::to_string(image.highBit) + " contradict each other; get the file again");
     }
-    // The type OW comes in words of 16 bits, and what those of other sizes become is read in more than one way.
+    // The type OW has words of 16 bits; readers disagree about other sizes.
     const bool words = file.pixels->words && image.bitsAllocated == 8;
     if (file.syntax->bigPixels && (words || image.bitsAllocated == 32)) {
         return cannotRead(file.path, "its pixels take " + std::to_string(image.bitsAllocated) +
@@ -146,7 +146,7 @@ Result<void> checkPixelLength(const DicomFile& file, DicomImage& image) {
     return {};
 }
 
-/// Where the elements of one frame are looked for: its own groups, the shared ones, the file.
+/// Data sets to search for the elements of a frame: its own groups, the shared ones, the file.
 struct Groups {
     std::array<const DicomDataSet*, 3> sets{};
 

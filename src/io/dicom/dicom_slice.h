@@ -12,7 +12,7 @@
 
 namespace voxtact::io {
 
-/// How a file stores its pixels.
+/// Storage of a file's pixels.
 struct DicomImage {
     std::uint32_t columns = 0;
     std::uint32_t rows = 0;
@@ -28,7 +28,7 @@ struct DicomImage {
     [[nodiscard]] std::uint64_t frameBytes() const noexcept { return pixels() * (bitsAllocated / 8); }
 };
 
-/// One frame of one file, and where it lies: millimetres, LPS.
+/// One frame of one file, and its position: millimetres, LPS.
 struct DicomSlice {
     std::size_t file = 0;            ///< in the list that it was made from
     std::uint32_t frame = 0;         ///< from 0
@@ -43,17 +43,17 @@ struct DicomSlice {
     double height = 0; ///< along the normal of the stack
 };
 
-/// What a file with pixels says about them; refuses what cannot be read, naming the element, and sizes that the pixels
-/// in the file do not have.
+/// Returns the properties of a file's pixels. Refuses unreadable elements by name, and sizes that do not match the
+/// pixels.
 [[nodiscard]] Result<DicomImage> dicomImage(const DicomFile& file);
 
-/// The same of a mask of one bit a pixel, as segmentations have them.
+/// Like above, for a mask of one bit per pixel, as in segmentations.
 [[nodiscard]] Result<DicomImage> dicomMask(const DicomFile& file);
 
 /// Numbers with backslashes between them; none unless there are as many as wanted (0: any number), and finite.
 [[nodiscard]] std::optional<std::vector<double>> dicomNumbers(std::string_view text, std::size_t wanted);
 
-/// A slice for each frame. Nothing that is missing is assumed: refused by name.
+/// Returns a slice per frame. Refuses missing elements by name.
 [[nodiscard]] Result<std::vector<DicomSlice>> dicomSlices(const DicomFile& file, const DicomImage& image,
                                                           std::size_t index);
 

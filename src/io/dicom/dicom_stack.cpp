@@ -64,7 +64,7 @@ std::vector<Property> properties(const std::vector<DicomFile>& files, const std:
              }}};
 }
 
-/// What most have, if most have one thing (Boyer and Moore's vote).
+/// Returns the majority value, if any (Boyer and Moore's vote).
 const DicomSlice& usual(const std::vector<DicomSlice>& slices, const Property& property) {
     std::size_t candidate = 0;
     std::size_t votes = 0;
@@ -77,7 +77,7 @@ const DicomSlice& usual(const std::vector<DicomSlice>& slices, const Property& p
     return slices[candidate];
 }
 
-/// What tells two images at one place apart, if the files say it.
+/// Elements that distinguish two images at one position.
 std::string difference(const DicomDataSet& a, const DicomDataSet& b) {
     if (!a.text(dicom::kSopInstance).empty() && a.text(dicom::kSopInstance) == b.text(dicom::kSopInstance)) {
         return "they are the same image; take one of them away";
@@ -133,7 +133,7 @@ Error unevenGap(const std::filesystem::path& folder, const std::vector<DicomSlic
                                   " mm are usual; resample the series to even gaps" + kHow);
 }
 
-/// Where a slice is off the even spacing; 0 where none is.
+/// Returns the first slice off the even spacing; 0 if none.
 std::size_t firstUneven(const std::vector<DicomSlice>& slices, double usualGap) {
     for (std::size_t i = 1; i < slices.size(); ++i) {
         if (std::abs(slices[i].height - slices[i - 1].height - usualGap) > tolerance(usualGap)) {

@@ -11,8 +11,8 @@ namespace voxtact::io {
 /// In thousandths, for messages.
 [[nodiscard]] std::string millimetres(double length);
 
-/// Refuses slices that do not lie alike: another size, spacing or orientation than most of the series, another frame of
-/// reference, rescaled where others are not. The odd one is named.
+/// Refuses slices that differ from the majority of the series in size, spacing, orientation, frame of reference or
+/// rescaling. The error names the slice.
 [[nodiscard]] Result<void> checkAlike(const std::vector<DicomFile>& files, const std::vector<DicomImage>& images,
                                       const std::vector<DicomSlice>& slices);
 

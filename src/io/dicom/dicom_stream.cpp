@@ -17,7 +17,7 @@ namespace voxtact::io {
 namespace {
 
 constexpr std::size_t kInflatedChunk = std::size_t{1} << 16;
-/// What one deflated byte becomes at most.
+/// Maximum bytes of a deflated byte.
 constexpr std::uint64_t kMostInflation = 1032;
 
 } // namespace

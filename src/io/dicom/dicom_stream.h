@@ -31,15 +31,15 @@ class DicomStream {
     [[nodiscard]] bool read(void* to, std::size_t count);
     [[nodiscard]] bool skip(std::uint64_t count);
 
-    /// Whether the file could not be read although it says that it has more: what there is of it looks like its end.
+    /// Returns true if reading failed before the file's end.
     [[nodiscard]] bool failed() const noexcept { return failed_; }
 
     /// Bytes taken so far, counted after inflation.
     [[nodiscard]] std::uint64_t position() const noexcept { return position_; }
-    /// How many bytes may follow at most: exact for a plain file, a bound for a deflated one.
+    /// Returns the maximum number of following bytes: exact for a plain file, a bound for a deflated one.
     [[nodiscard]] std::uint64_t mostLeft() const noexcept;
 
-    /// What follows is a raw deflate stream, of which `most` bytes are inflated at most.
+    /// Begins a raw deflate stream; inflates at most `most` bytes.
     [[nodiscard]] Result<void> inflateFromHere(std::uint64_t most);
     /// Allows inflation of this many bytes more.
     void allow(std::uint64_t bytes) noexcept;

@@ -106,7 +106,7 @@ std::string rescaleNote(const std::vector<DicomSlice>& slices, StoredType type) 
 Result<std::vector<std::byte>> dicomVoxels(const std::vector<DicomFile>& files, const std::vector<DicomImage>& images,
                                            const std::vector<DicomSlice>& slices, StoredType type,
                                            const ReadProgress& progress) {
-    // Where in the stack each frame of each file goes.
+    // Position in the stack of each frame of each file.
     std::vector<std::vector<std::size_t>> places(files.size());
     for (std::size_t i = 0; i < slices.size(); ++i) {
         std::vector<std::size_t>& of = places[slices[i].file];

@@ -10,11 +10,11 @@
 
 namespace voxtact::io {
 
-/// The narrowest type that holds whatever the slices can say once they are rescaled: integers where all slopes and
-/// intercepts are, else floats.
+/// Returns the narrowest type for all rescaled values of the slices: integers if all slopes and intercepts are, else
+/// floats.
 [[nodiscard]] StoredType dicomType(const std::vector<DicomImage>& images, const std::vector<DicomSlice>& slices);
 
-/// What the user is told about the rescaling; empty where there is nothing to tell.
+/// Returns the note on rescaling; empty if none.
 [[nodiscard]] std::string rescaleNote(const std::vector<DicomSlice>& slices, StoredType type);
 
 /// Decodes all files into the stack, rescaled.

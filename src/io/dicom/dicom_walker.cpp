@@ -73,7 +73,7 @@ Kind kindOf(DicomTag tag) {
     return in(kSequences) ? Kind::Sequence : Kind::None;
 }
 
-/// Bytes that the pixels take by their tags, at most; 0 where these do not say it.
+/// Returns the maximum bytes of the pixels by their tags; 0 if unknown.
 std::uint64_t pixelBytes(const DicomDataSet& set) {
     std::uint64_t bits = 1;
     for (const DicomTag tag : {dicom::kRows, dicom::kColumns, dicom::kBitsAllocated, dicom::kSamples, dicom::kFrames}) {

@@ -8,7 +8,7 @@
 
 namespace voxtact::io {
 
-/// Goes through a data set element by element. Every length is checked against what is around it before it is used.
+/// Walks a data set element by element. Checks every length against the enclosing data before use.
 class DicomWalker {
   public:
     DicomWalker(DicomStream& stream, const DicomSyntax& syntax);
@@ -26,7 +26,7 @@ class DicomWalker {
     [[nodiscard]] const std::optional<DicomPixelData>& pixels() const noexcept { return pixels_; }
     [[nodiscard]] std::size_t elements() const noexcept { return elements_; }
 
-    /// Whether these two letters are one of the types of PS3.5.
+    /// Returns true if two letters are a type of PS3.5.
     [[nodiscard]] static bool isType(std::string_view letters);
 
   private:

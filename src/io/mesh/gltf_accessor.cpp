@@ -16,7 +16,7 @@ constexpr std::uint64_t kUnsignedShort = 5123;
 constexpr std::uint64_t kUnsignedInt = 5125;
 constexpr std::uint64_t kFloat = 5126;
 
-/// 0 for what is no type.
+/// Returns 0 for an unknown type.
 std::size_t bytesOf(std::uint64_t componentType) {
     switch (componentType) {
     case kByte:
@@ -174,7 +174,7 @@ double GltfAccessor::number(std::uint64_t element, std::size_t component) const 
         return 0;
     }
     const std::string_view bytes(begin + component * componentBytes_, componentBytes_);
-    // As the specification says: 0 and 1, or -1 and 1, are reached exactly.
+    // By the specification, 0 and 1, or -1 and 1, are reached exactly.
     switch (componentType_) {
     case kByte:
         return normalised_ ? std::max(numberAt<std::int8_t>(bytes, 0) / 127.0, -1.0) : numberAt<std::int8_t>(bytes, 0);

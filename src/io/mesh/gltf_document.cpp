@@ -62,7 +62,7 @@ GlbChunks splitGlb(std::string_view content) {
     return chunks;
 }
 
-/// Extensions that a file may require: what a surface looks like, lights, and what is implemented here.
+/// Extensions that a file may require: materials, lights, and those implemented here.
 bool isHarmless(const std::string& extension) {
     constexpr std::array<std::string_view, 11> kKnown{
         "KHR_mesh_quantization", "KHR_texture_transform", "KHR_texture_basisu", "KHR_lights_punctual",

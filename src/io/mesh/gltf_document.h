@@ -33,7 +33,7 @@ class GltfDocument {
     /// True where the file says that it uses the extension.
     [[nodiscard]] bool uses(const std::string& extension) const { return extensions_.contains(extension); }
 
-    /// The bytes of a buffer, as many as it states; read when they are first asked for.
+    /// Returns the stated number of bytes of a buffer; reads them on first use.
     [[nodiscard]] std::string_view buffer(std::uint64_t index);
     /// The bytes of a view.
     [[nodiscard]] std::string_view view(std::uint64_t index);
@@ -54,7 +54,7 @@ class GltfDocument {
 [[nodiscard]] const GltfJson* member(const GltfJson& object, const char* key);
 [[nodiscard]] std::optional<std::uint64_t> natural(const GltfJson& object, const char* key);
 [[nodiscard]] std::uint64_t natural(const GltfJson& object, const char* key, std::uint64_t otherwise);
-/// One that must be there.
+/// Returns a required member.
 [[nodiscard]] std::uint64_t neededNatural(const GltfJson& object, const char* key);
 [[nodiscard]] std::string textOf(const GltfJson& object, const char* key);
 [[nodiscard]] bool flag(const GltfJson& object, const char* key);

@@ -165,7 +165,7 @@ class GltfReader {
         const std::uint64_t triangles = trianglesOf(mode, corners);
         std::optional<GltfSkinning> skinning;
         if (joints != nullptr) {
-            // The node's own place means nothing to a skinned mesh.
+            // A skinned mesh ignores the transform of its node.
             skinning.emplace(document_, *attributes, positions.count(), *joints);
         }
         used_.assign(positions.count(), kNoVertex);
@@ -179,7 +179,7 @@ class GltfReader {
                 }
             }
             const Mat4 turned = skinning ? skinning->worldFromVertex(vertices[0]) : placement.world_from_node;
-            // What mirrors turns triangles inside out.
+            // Mirroring turns triangles inside out.
             if (determinant(turned) < 0) {
                 std::swap(vertices[1], vertices[2]);
             }
@@ -200,7 +200,8 @@ class GltfReader {
         file_.corners.push_back(used_[vertex]);
     }
 
-    /// What the primitives of a mesh state. Adds to `stored` how many elements each of their accessors has in the file.
+    /// Collects the attributes of a mesh's primitives. Adds to `stored` the number of elements of each accessor in the
+    /// file.
     [[nodiscard]] std::uint64_t statedTriangles(std::uint64_t mesh, std::map<std::uint64_t, std::uint64_t>& stored) {
         std::uint64_t total = 0;
         for (const GltfJson& primitive : objects(document_.item("meshes", mesh), "primitives")) {
@@ -243,7 +244,7 @@ class GltfReader {
     GltfDocument document_;
     GltfScene scene_;
     MeshFile file_;
-    std::vector<std::uint32_t> used_; ///< of the primitive at hand: its vertices' places in the file's
+    std::vector<std::uint32_t> used_; ///< of the current primitive: positions of its vertices among the file's
 };
 
 } // namespace

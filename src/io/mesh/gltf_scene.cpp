@@ -69,7 +69,7 @@ Mat4 parentFromNode(const GltfJson& json, const std::string& node) {
     return scale ? multiply(result, translationAndScale({0, 0, 0}, *scale)) : result;
 }
 
-/// With everything below it.
+/// With all descendants.
 bool isHidden(const GltfJson& node) {
     const GltfJson* const extensions = member(node, "extensions");
     const GltfJson* const visibility = extensions == nullptr ? nullptr : member(*extensions, "KHR_node_visibility");

@@ -22,8 +22,8 @@ struct MeshSource {
     double deflection = kDefaultDeflection; ///< of STEP and IGES; units of the file's mm
 };
 
-/// What a mesh file says, in its own coordinates and order. What a reader returns is sound: every corner is a vertex,
-/// every face has 3 corners or more. Vertices may lie anywhere a double can, and be unused.
+/// Contents of a mesh file, in its own coordinates and order. Readers return valid ones: every corner is a vertex,
+/// every face has 3 corners or more. Vertices may be any doubles, and unused.
 struct MeshFile {
     std::vector<Vec3> vertices;
     std::vector<std::uint32_t> corners;   ///< vertices of one face after the other
@@ -37,7 +37,7 @@ struct MeshFile {
 
 inline constexpr std::string_view kPadding(" \t\v\f\r\n\0", 7);
 
-/// Takes what a comment or a header says of the space.
+/// Takes the space from a comment or header.
 void takeSpace(std::string_view comment, MeshFile& file);
 
 /// Adds the triangles of a strip: every second one is turned, so that all turn as the first does.
@@ -48,7 +48,7 @@ void addStrip(std::span<const std::uint32_t> strip, MeshFile& file);
 /// The content without white space and zeros at its end; notes zeros.
 [[nodiscard]] std::string_view withoutPadding(std::string_view content, MeshFile& file);
 
-/// One reader for each format: it refuses what it does not understand, with its place.
+/// One reader per format: it refuses unknown content, with its position.
 [[nodiscard]] Result<MeshFile> readStl(const MeshSource& source);
 [[nodiscard]] Result<MeshFile> readObj(const MeshSource& source);
 [[nodiscard]] Result<MeshFile> readPly(const MeshSource& source);
@@ -59,7 +59,7 @@ void addStrip(std::span<const std::uint32_t> strip, MeshFile& file);
 /// STEP and IGES, by voxtact-step.
 [[nodiscard]] Result<MeshFile> readCad(const MeshSource& source);
 [[nodiscard]] bool isCad(const std::filesystem::path& path);
-/// By the ending.
+/// Selects the reader by the ending.
 [[nodiscard]] Result<MeshFile> readMeshFile(const MeshSource& source);
 
 } // namespace voxtact::io

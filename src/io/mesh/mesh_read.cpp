@@ -31,7 +31,7 @@ Mat4 objectFromFile(MeshSpace space, double scale) {
     return matrix;
 }
 
-/// What the user says, else what the file says, else LPS.
+/// The space of the user, else of the file, else LPS.
 Result<MeshSpace> spaceOf(const std::filesystem::path& path, const MeshReadOptions& options, MeshFile& file) {
     if (file.saysLps && file.saysRas) {
         return cannotRead(path, "it says both SPACE=LPS and SPACE=RAS; mend it");

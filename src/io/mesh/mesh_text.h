@@ -18,7 +18,7 @@ class TextLines {
 
     [[nodiscard]] bool next(std::string_view& line);
     [[nodiscard]] std::uint64_t number() const noexcept { return number_; }
-    /// What follows the last line that next() gave.
+    /// Returns the rest after the last line of next().
     [[nodiscard]] std::string_view rest() const noexcept { return rest_; }
 
   private:
@@ -26,7 +26,7 @@ class TextLines {
     std::uint64_t number_ = 0;
 };
 
-/// The text without its byte order mark; refuses what is not in ASCII or UTF-8.
+/// Returns the text without its byte order mark; refuses text that is not ASCII or UTF-8.
 [[nodiscard]] Result<std::string_view> meshText(const std::filesystem::path& path, std::string_view content);
 
 /// The natural number that the whole token spells.

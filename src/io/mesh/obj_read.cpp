@@ -14,7 +14,7 @@ namespace voxtact::io {
 
 namespace {
 
-/// Words whose lines change nothing of the surface: names, groups, materials, normals, texture coordinates, display.
+/// Keywords without effect on the surface: names, groups, materials, normals, texture coordinates, display.
 constexpr std::array<std::string_view, 17> kNoGeometry{"vt",  "vn",       "vp",       "g",          "o",        "s",
                                                        "mg",  "usemtl",   "mtllib",   "usemap",     "maplib",   "bevel",
                                                        "lod", "c_interp", "d_interp", "shadow_obj", "trace_obj"};
@@ -41,7 +41,7 @@ class ObjReader {
         if (word == "v") {
             return vertex();
         }
-        // `fo` is what faces were called before 1992.
+        // `fo` is the name of faces before 1992.
         if (word == "f" || word == "fo" || word == "l" || word == "p") {
             return element(word.front(), number);
         }

@@ -69,7 +69,7 @@ class OffReader {
         if (tokens_.empty() && !nextTokens()) {
             tokens_.clear();
         }
-        // The third, the number of edges, means nothing.
+        // The third, the number of edges, is ignored.
         constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
         if (tokens_.size() == 2 || tokens_.size() == 3) {
             vertices = parseNatural(tokens_[0]).value_or(kMost + 1);
@@ -122,7 +122,7 @@ class OffReader {
                                  std::to_string(tokens_.size());
     }
 
-    /// What follows the corners is a colour.
+    /// A colour follows the corners.
     std::optional<std::string> takeFace() {
         const std::optional<std::uint64_t> corners = parseNatural(tokens_[0]);
         if (!corners || *corners < 3 || tokens_.size() <= *corners) {
@@ -151,7 +151,7 @@ class OffReader {
 } // namespace
 
 Result<MeshFile> readOff(const MeshSource& source) {
-    // The header states all that is read, so that zeros behind it hide nothing.
+    // The header states the whole content, so zeros after it hide nothing.
     MeshFile file;
     const Result<std::string_view> text = meshText(source.path, withoutPadding(source.content, file));
     VOXTACT_TRY(text);

@@ -17,7 +17,7 @@ namespace voxtact::io {
 
 namespace {
 
-/// What one row of an element is asked for: of each property its numbers, or nothing.
+/// Requested numbers of a row of an element, by property.
 struct Row {
     std::vector<bool> wanted;                ///< by property
     std::vector<std::vector<double>> values; ///< by property; empty where not wanted
@@ -29,7 +29,7 @@ class Body {
     virtual ~Body() = default;
     /// The reason why there is no such row.
     virtual std::optional<std::string> take(const PlyElement& element, Row& row) = 0;
-    /// What follows the last row.
+    /// Returns the rest after the last row.
     [[nodiscard]] virtual std::string_view rest() const = 0;
 };
 

@@ -54,7 +54,7 @@ bool areOnALine(const std::vector<Vec3>& points) {
                        [&](const Vec3& point) { return largest(cross(far, point)) <= kTolerance; });
 }
 
-/// The shadow in which the polygon is largest, turning left; empty where it encloses nothing in any.
+/// Returns the largest projection of the polygon along an axis, counter-clockwise; empty if all have no area.
 std::vector<Point> shadow(const std::vector<Vec3>& points) {
     constexpr double kTolerance = 1e-12;
     Vec3 normal{};
@@ -118,8 +118,8 @@ bool crossesItself(const std::vector<Point>& flat) {
     return false;
 }
 
-/// Cuts ears off a polygon that does not cross itself. Cutting one can make an ear of its two neighbours only: what is
-/// left is a part of what was, and a cut that led outside still does.
+/// Cuts ears off a polygon that does not cross itself. A cut can create new ears only at its two neighbours: the rest
+/// is a part of the polygon, and an outside diagonal stays outside.
 class EarCutter {
   public:
     EarCutter(const std::vector<Point>& flat, Triangles& triangles)
@@ -133,7 +133,7 @@ class EarCutter {
     }
 
     bool cut() {
-        // Bridges to holes touch what they should not; the second round lets them.
+        // Bridges to holes touch other edges; the second round permits this.
         return cutRound(false) || cutRound(true);
     }
 
@@ -215,7 +215,7 @@ std::optional<std::string> cutPolygon(std::span<const Vec3> corners, Triangles& 
         }
         return std::nullopt;
     }
-    // The time of what follows grows with the square.
+    // The following step takes quadratic time.
     constexpr std::size_t kMostCorners = 4096;
     if (corners.size() > kMostCorners) {
         return "a polygon of " + std::to_string(corners.size()) +

@@ -54,7 +54,7 @@ void flushNothing(png_structp /*png*/) {}
 
 void warnNobody(png_structp /*png*/, png_const_charp /*text*/) {}
 
-/// libpng's writer. It fails where there is no memory, by a long jump: what it may jump over has no destructor.
+/// libpng's writer. It fails without memory, by a long jump, which must skip no destructor.
 class PngWriter {
   public:
     explicit PngWriter(std::ostream& out)

@@ -33,9 +33,8 @@ std::optional<std::string> parseLabel(std::string_view token, std::int32_t& labe
 struct Row {
     std::int32_t label = 0;
     std::uint64_t line = 0;
-    std::string name; ///< without the numbers at the end
-    std::string
-        numbered; ///< with the one number at the end, if there is one, which may be a column or part of the name
+    std::string name;     ///< without the numbers at the end
+    std::string numbered; ///< with the number at the end, if any, which may be a column or part of the name
 };
 
 bool isNumber(std::string_view word) {
@@ -88,7 +87,7 @@ std::optional<std::string> takeName(std::span<const std::string_view> words, Row
     return std::nullopt;
 }
 
-/// Where names without their numbers are one name, the numbers belong to them: "area 4", "area 6".
+/// If names without their numbers are equal, the numbers belong to them: "area 4", "area 6".
 void tellApart(std::vector<Row>& rows) {
     std::unordered_map<std::string, std::int32_t> labels;
     const bool isSame = std::any_of(rows.begin(), rows.end(), [&](const Row& row) {

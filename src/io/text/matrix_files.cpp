@@ -79,7 +79,7 @@ Result<Mat4> makePose(std::vector<double> numbers, const std::filesystem::path& 
 
 Result<Mat4> rigidPose(const std::vector<double>& numbers, PoseFormat format, const std::filesystem::path& path,
                        std::uint64_t line) {
-    constexpr double kOff = 1e-3; // digits that were rounded, and nothing else
+    constexpr double kOff = 1e-3; // tolerance for rounded digits only
     if (numbers.size() != kRigid) {
         return badLine(path, line,
                        std::to_string(numbers.size()) + (numbers.size() == 1 ? " number" : " numbers") +
@@ -129,15 +129,15 @@ struct PoseReader::State {
     PoseFormat format = PoseFormat::Matrix;
     bool any = false;
 
-    /// The next pose; nothing at the end.
+    /// Returns the next pose; empty at the end.
     Result<std::optional<Mat4>> next();
 
   private:
-    /// The next line that is not empty; nothing at the end.
+    /// Returns the next line that is not empty; none at the end.
     Result<std::optional<std::string_view>> line();
     /// The rest of a matrix of four lines.
     Result<Mat4> block(std::vector<double> numbers);
-    /// What follows the line "Transform: TYPE".
+    /// Reads the lines after "Transform: TYPE".
     Result<Mat4> transform(std::string_view type);
     /// The numbers of the line that begins so.
     Result<std::vector<double>> field(std::string_view name, std::size_t count);

@@ -17,7 +17,7 @@ struct OtherTransferFunction {
     std::vector<ColourPoint> colours; ///< between them, colours are mixed in RGB here
 };
 
-/// Whether it is a colour map of ParaView: an array of objects with RGBPoints.
+/// Returns true for a colour map of ParaView: an array of objects with RGBPoints.
 [[nodiscard]] bool isParaViewMap(const nlohmann::json& root);
 /// Reads such a map. Refuses several maps, one without opacity, and opacity that is not linear between its points.
 [[nodiscard]] Result<OtherTransferFunction> readParaViewMap(const std::filesystem::path& path,

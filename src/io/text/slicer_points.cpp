@@ -37,7 +37,7 @@ const char* nameOf(MeshSpace space) {
     return space == MeshSpace::RAS ? "RAS" : "LPS";
 }
 
-/// The fields of a line of CSV, quotes taken away; nothing where they are not closed.
+/// Returns the fields of a CSV line, without quotes; empty if a quote is not closed.
 std::optional<std::vector<std::string>> csvFields(std::string_view line) {
     std::vector<std::string> fields(1);
     bool quoted = false;
@@ -57,7 +57,7 @@ std::optional<std::vector<std::string>> csvFields(std::string_view line) {
     return quoted ? std::nullopt : std::optional(std::move(fields));
 }
 
-/// Where the fields of a point are in a line.
+/// Columns of a point's fields.
 struct Columns {
     std::array<std::size_t, 3> position{1, 2, 3};
     std::size_t label = 11;

@@ -9,7 +9,7 @@
 
 namespace voxtact::io {
 
-/// Whether the ending is .fcsv or .mrk.json.
+/// Returns true if the ending is .fcsv or .mrk.json.
 [[nodiscard]] bool isSlicerPoints(const std::filesystem::path& path);
 
 /// Reads 3D Slicer's points as readPoints() says.

@@ -13,7 +13,7 @@
 
 namespace voxtact::io {
 
-/// The whole of an ordinary file of at most `most` bytes; otherwise why not, without the file's name (File).
+/// Returns the contents of an ordinary file of at most `most` bytes, else the reason without the file's name (File).
 [[nodiscard]] inline Result<std::string> readSmallFile(const std::filesystem::path& path, std::uintmax_t most) {
     const auto refuse = [](std::string why) { return Error{ErrorCode::File, 0, std::move(why)}; };
     std::error_code failed;

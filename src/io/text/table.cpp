@@ -40,7 +40,7 @@ std::string listText(const std::vector<NamedCount>& counts) {
     return text;
 }
 
-/// As a field of CSV or, where there are words, of text.
+/// Formats a field of CSV or, with words, of text.
 std::string cellText(const Cell& cell, std::string_view nothing, bool words) {
     if (const auto* whole = std::get_if<std::uint64_t>(&cell)) {
         return std::to_string(*whole);

@@ -29,21 +29,21 @@ struct PathName {
     std::string name;
 };
 
-/// How many fragments are at a label.
+/// Number of fragments at a label.
 struct NamedCount {
     std::int32_t label = 0;
     std::string name;
     std::uint64_t count = 0;
 };
 
-/// JSON has no infinity: it is a word there, as in CSV. Nothing: an empty field in CSV, null in JSON, "-" in text.
-/// Named counts: "name:count;name:count" in CSV and text, where names with one of , ; : or quotes are in quotes, quotes
-/// in them doubled; an array of objects in JSON.
+/// Infinity is a string in JSON, a word in CSV. Empty: an empty field in CSV, null in JSON, "-" in text. Named counts:
+/// "name:count;name:count" in CSV and text, where names with one of , ; : or quotes are in quotes, quotes in them
+/// doubled; an array of objects in JSON.
 using Cell =
     std::variant<std::monostate, std::uint64_t, double, std::string, NumberWord, PathName, std::vector<NamedCount>>;
 using NamedCells = std::vector<std::pair<std::string, Cell>>;
 
-/// What comes behind the rows: a line of CSV and text, "# name=value ..."; a member of JSON. Left out when empty.
+/// Footer after the rows: a line of CSV and text, "# name=value ..."; a member of JSON. Omitted if empty.
 struct TableEnd {
     const char* name = ""; ///< of the member
     NamedCells cells{};
@@ -73,12 +73,12 @@ class TableWriter {
     /// The stream must outlive it.
     TableWriter(std::ostream& out, Format format);
 
-    /// The next rows. What comes before them is written with the first part, which may have none; columns of text are
-    /// as wide as the widest field so far.
+    /// Writes the next rows, with the header before the first part, which may be empty. Columns of text are as wide as
+    /// the widest field so far.
     void add(const Table& part);
     /// JSON only: the rows that follow are of another array, a member of this name behind the one before.
     void beginArray(const std::string& name);
-    /// What comes before the rows is written by somebody else.
+    /// The caller writes the header.
     void omitHead() noexcept { begun_ = true; }
     /// After all parts, of which there must be one. `whole` false: JSON says "interrupted".
     void end(std::span<const TableEnd> ends = {}, bool whole = true);

@@ -50,7 +50,7 @@ LineReader::LineReader(std::streambuf& buffer, std::filesystem::path name) : buf
 std::streambuf::int_type LineReader::get() {
     const auto c = buffer_->sbumpc();
     if (std::streambuf::traits_type::eq_int_type(c, std::streambuf::traits_type::eof())) {
-        // Not every standard library throws where a file cannot be read.
+        // Not every standard library throws on read errors.
         if (left_ > 0) {
             throw std::ios_base::failure("", std::make_error_code(std::errc::io_error));
         }
@@ -60,7 +60,7 @@ std::streambuf::int_type LineReader::get() {
     return c;
 }
 
-// std::getline() takes whatever stops it, a lack of memory too, for the end of the stream.
+// std::getline() treats any failure, even a lack of memory, as the end of the stream.
 bool LineReader::read() {
     using Traits = std::streambuf::traits_type;
     line_.clear();

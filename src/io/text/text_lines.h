@@ -50,7 +50,7 @@ using TakeWords = std::function<Result<void>(const std::vector<std::string_view>
 /// Calls `take` for each line of a file that has words, until one is refused.
 [[nodiscard]] Result<void> forWords(const std::filesystem::path& path, const TakeWords& take);
 
-/// What is between blanks and tabs.
+/// Returns the words between blanks and tabs.
 void splitTokens(std::string_view line, std::vector<std::string_view>& tokens);
 
 /// `value` becomes the number that the whole token spells, in every locale: an optional sign, decimal digits and

@@ -122,7 +122,7 @@ Result<Points> readJson(const std::filesystem::path& path) {
     return points;
 }
 
-/// Told by the first character.
+/// Distinguished by the first character.
 Result<bool> isJson(const std::filesystem::path& path) {
     Result<LineReader> lines = LineReader::open(path);
     VOXTACT_TRY(lines);

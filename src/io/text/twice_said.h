@@ -8,8 +8,8 @@
 
 namespace voxtact::io {
 
-/// A callback of the parser of nlohmann/json that finds members of an object that have the same name: of these a
-/// parser keeps the last one. Leaves what is parsed as it is.
+/// A callback for nlohmann's parser that finds duplicate members of an object, of which a parser keeps the last one.
+/// Changes nothing.
 template <class Json> class TwiceSaid {
   public:
     bool operator()(typename Json::parse_event_t event, const Json& parsed) {

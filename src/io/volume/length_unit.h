@@ -8,7 +8,7 @@
 
 namespace voxtact::io {
 
-/// What a header says of its unit of length, by name: "mm", "um", "microns", "inch", ...
+/// A unit of length by its name in a header: "mm", "um", "microns", "inch", ...
 struct LengthUnit {
     double millimetres = 1;
     std::string unknown{}; ///< the name, where it is none that is known: millimetres are taken then
@@ -16,7 +16,7 @@ struct LengthUnit {
     bool operator==(const LengthUnit&) const = default;
 };
 
-/// None where the name says nothing: it is empty or "?".
+/// Returns none if the name is empty or "?".
 [[nodiscard]] std::optional<LengthUnit> lengthUnit(std::string_view name);
 
 /// Says that lengths are taken to millimetres, or that the unit is not known.

@@ -46,7 +46,7 @@ Result<void> checkFinite(const fs::path& path, const std::string& name, double v
 /// Every number that says where the image is, whether or not it is the one that counts: a header with one that is
 /// none is not to be trusted.
 Result<void> checkNumbers(const fs::path& path, const NiftiHeader& header) {
-    // Analyze has nothing in pixdim[0].
+    // Analyze does not use pixdim[0].
     for (std::size_t i = header.kind == NiftiHeader::Kind::Analyze ? 1 : 0; i < header.pixdim.size(); ++i) {
         VOXTACT_TRY(checkFinite(path, "pixdim[" + std::to_string(i) + "]", header.pixdim[i]));
     }
@@ -85,8 +85,7 @@ Vec3 voxelSizes(const NiftiHeader& header, std::vector<std::string>& notes) {
     return sizes;
 }
 
-/// The matrix as it is. What of it is the spacing: pixdim, where that differs by rounding alone, so that a spacing of 1
-/// is 1.
+/// Keeps the matrix. The spacing is pixdim if they differ only by rounding, so a spacing of 1 is 1.
 Place sformPlace(const NiftiHeader& header) {
     Place place;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -130,7 +129,7 @@ Result<Place> qformPlace(const fs::path& path, const NiftiHeader& header, const 
             component = -component;
         }
     }
-    // The first number is a difference from 1: what its square is uncertain by.
+    // The first number is a difference from 1, so its square is uncertain.
     const double error = 3 * epsilon;
     place.doubt = 2 * std::min(std::sqrt(error), error / std::max(a, epsilon));
     return place;
@@ -171,7 +170,7 @@ Result<Grid> gridOf(const fs::path& path, const NiftiHeader& header, AffineSteps
     return grid;
 }
 
-/// The qform beside an sform that counts.
+/// The qform, if the sform is used.
 void noteOther(const fs::path& path, const NiftiHeader& header, const Grid& grid, double unit,
                std::vector<std::string>& notes) {
     std::vector<std::string> ignored;

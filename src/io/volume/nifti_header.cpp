@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where the fields are. NIfTI-2 has the same ones, most of them wider.
+/// Offsets of the fields. NIfTI-2 has the same fields, most of them wider.
 struct Offsets {
     std::size_t sizes, type, pixdim, voxelOffset, slope, intercept, units, qformCode, sformCode, quaternion, qoffset,
         srow, magic;
@@ -78,7 +78,7 @@ Result<NiftiHeader> parse(const fs::path& path, const Read& read, const Offsets&
     return header;
 }
 
-/// Nothing before the header's end can be voxels.
+/// No voxels precede the header's end.
 Result<NiftiHeader> withOffset(const fs::path& path, NiftiHeader header, double offset, bool single) {
     const std::size_t least = !single ? 0 : header.kind == NiftiHeader::Kind::Nifti2 ? kNifti2Bytes : kNifti1Bytes;
     constexpr double kMost = 1e15;

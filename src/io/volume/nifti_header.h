@@ -12,7 +12,7 @@
 
 namespace voxtact::io {
 
-/// The fields of a NIfTI-1, NIfTI-2 or Analyze 7.5 header that say what the voxels are and where.
+/// Fields of a NIfTI-1, NIfTI-2 or Analyze 7.5 header about type and position of the voxels.
 struct NiftiHeader {
     enum class Kind { Analyze, Nifti1, Nifti2 };
 
@@ -22,7 +22,7 @@ struct NiftiHeader {
     std::int16_t type = 0;           ///< NIfTI's number
     std::uint64_t voxelOffset = 0;   ///< in the file that holds the voxels
     std::array<double, 4> pixdim{};  ///< the first is qfac
-    double slope = 0;                ///< scl_slope, or what SPM keeps there
+    double slope = 0;                ///< scl_slope, or SPM's use of that field
     double intercept = 0;            ///< scl_inter
     std::int32_t units = 0;          ///< xyzt_units
     std::int32_t qformCode = 0;
@@ -52,7 +52,7 @@ constexpr std::array<NiftiType, 10> kNiftiTypes{{{2, StoredType::UInt8},
 constexpr std::size_t kNifti1Bytes = 348;
 constexpr std::size_t kNifti2Bytes = 540;
 
-/// Whether the header that begins so takes kNifti2Bytes.
+/// Returns true if a header with this beginning takes kNifti2Bytes.
 [[nodiscard]] bool isNifti2(std::string_view head);
 
 /// `head`: the first bytes of the file, kNifti1Bytes or kNifti2Bytes of them, or all. `single`: header and
@@ -67,8 +67,8 @@ constexpr std::size_t kNifti2Bytes = 540;
 /// Says the place of the voxels, mm: the sform, and the qform where the axes are at right angles. The sizes too.
 void setNiftiGrid(NiftiHeader& header, const Grid& grid);
 
-/// The place of the voxels, as nibabel's `affine` says it, in mm and LPS: the sform where its code is set, else the
-/// qform, else what nibabel takes when neither is. What is assumed, and an sform and a qform that differ, are noted.
+/// Returns the position of the voxels like nibabel's `affine`, in mm and LPS: the sform if its code is set, else the
+/// qform, else nibabel's default. Notes assumptions, and an sform and a qform that differ.
 [[nodiscard]] Result<Grid> niftiGrid(const std::filesystem::path& path, const NiftiHeader& header,
                                      std::vector<std::string>& notes);
 

@@ -60,8 +60,8 @@ Result<StoredType> storedType(const fs::path& path, std::int16_t type) {
                                 "); convert it to integers or floats");
 }
 
-/// NIfTI: a slope of 0 is none. One that is no number is none for nibabel as well, which is said; with an intercept
-/// nobody knows what is meant. SPM's Analyze files have a slope in the same place, and take what is no number for none.
+/// NIfTI: a slope of 0 means none. NaN means none for nibabel, too, with a note; with an intercept its meaning is
+/// unknown. SPM's Analyze files have a slope in the same field, and NaN means none.
 Result<std::optional<Scaling>> scalingOf(const fs::path& path, const NiftiHeader& header,
                                          std::vector<std::string>& notes) {
     const bool isAnalyze = header.kind == NiftiHeader::Kind::Analyze;

@@ -48,7 +48,7 @@ std::optional<Vec3> vectorOf(std::string_view text) {
     return unknown == 0 || unknown == 3 ? std::optional(vector) : std::nullopt;
 }
 
-/// Of the lengths in a file: millimetres where it does not say it. All axes in space have one.
+/// The unit of the lengths in a file: millimetres by default, the same for all axes in space.
 Result<LengthUnit> unitOf(const fs::path& path, const NrrdHeader& header, const NrrdAxes& axes, bool inSpace) {
     const std::string_view field = inSpace ? "spaceunits" : "units";
     const std::string text = header.get(field);

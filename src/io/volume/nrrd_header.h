@@ -37,7 +37,7 @@ struct NrrdHeader {
 /// In lower case.
 [[nodiscard]] std::string withoutBlanks(std::string_view key);
 
-/// Leaves the reader behind the header. Refuses what is not NRRD, and a header without what every one has.
+/// Leaves the reader after the header. Refuses other files, and a header without required fields.
 [[nodiscard]] Result<NrrdHeader> readNrrdHeader(ByteReader& reader);
 
 /// The axes of a file: first those in space. An axis of size 1 that is none in space ("stub", "list") may come first in
@@ -52,7 +52,7 @@ struct NrrdAxes {
 /// None at all where the text is no list of vectors.
 [[nodiscard]] std::optional<std::vector<std::optional<Vec3>>> nrrdVectors(std::string_view text);
 
-/// mm, LPS. `axes`: three and more, the sizes of those after the third are 1. What is assumed is noted.
+/// mm, LPS. `axes`: three and more, the sizes of those after the third are 1. Notes assumptions.
 [[nodiscard]] Result<Grid> nrrdGrid(const std::filesystem::path& path, const NrrdHeader& header, const NrrdAxes& axes,
                                     std::vector<std::string>& notes);
 

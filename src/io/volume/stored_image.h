@@ -11,7 +11,7 @@
 
 namespace voxtact::io {
 
-/// How files store a voxel.
+/// Storage of a voxel in a file.
 enum class StoredType { Int8, UInt8, Int16, UInt16, Int32, UInt32, Int64, UInt64, Float32, Float64 };
 
 [[nodiscard]] constexpr std::size_t storedBytes(StoredType type) noexcept {
@@ -71,12 +71,12 @@ struct Scaling {
 struct StoredImage {
     Grid grid;
     StoredType type = StoredType::UInt8;
-    std::optional<Scaling> scaling; ///< none: the numbers are what is stored
+    std::optional<Scaling> scaling; ///< none: the stored numbers are the values
     std::vector<std::byte> voxels;
 };
 
-/// Takes the voxels to one of ScalarType: exactly where they are integers, in single precision where they are scaled
-/// or double. Says in the notes what was converted.
+/// Converts the voxels to a ScalarType: integers exactly, scaled voxels and doubles in single precision. Notes
+/// conversions.
 [[nodiscard]] Result<VolumeData> toScalars(StoredImage image, const std::filesystem::path& path);
 
 /// The voxels as labels, without scaling. Refuses one that is not whole or beyond an int32.

@@ -14,7 +14,7 @@ namespace voxtact::io {
 
 namespace {
 
-/// Bytes: far above what memory holds, and far below overflow.
+/// Bytes: far above any memory, and far below overflow.
 constexpr std::uint64_t kMost = std::uint64_t{1} << 50;
 
 Error tooMany(const std::filesystem::path& path) {
@@ -70,7 +70,7 @@ Result<ByteReader> VolumeSource::openBeside(const std::filesystem::path& header,
 
 namespace {
 
-/// A file whose ending says nothing.
+/// Returns the error of an unknown ending.
 Error unknownFormat(const VolumeSource& source, const std::filesystem::path& path) {
     Result<ByteReader> reader = source.open(path);
     VOXTACT_TRY(reader);

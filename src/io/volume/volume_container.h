@@ -17,10 +17,10 @@ namespace voxtact::io {
 
 enum class VolumeFormat { Nifti, Nrrd, Meta };
 
-/// By the ending of the name, in any case.
+/// Determines the format by the ending of the name, in any case.
 [[nodiscard]] std::optional<VolumeFormat> volumeFormat(const std::filesystem::path& path);
 
-/// Where the files of a volume are: on the disk, or one of them in memory.
+/// Source of a volume's files: the disk, or one file in memory.
 class VolumeSource {
   public:
     explicit VolumeSource(ReadProgress progress = {}) : progress_(std::move(progress)) {}
@@ -39,7 +39,7 @@ class VolumeSource {
     std::optional<std::span<const std::byte>> content_; ///< none: the disk
 };
 
-/// The voxels as the file holds them, its grid, and what the user should know.
+/// The stored voxels, the grid, and notes for the user.
 struct ContainedImage {
     StoredImage image;
     std::vector<std::string> notes;
@@ -56,8 +56,7 @@ struct ContainedImage {
 /// Bytes of an image with these sizes; refuses 2D, more than one image, and no voxel.
 [[nodiscard]] Result<std::uint64_t> imageBytes(const std::filesystem::path& path, std::span<const std::int64_t> sizes,
                                                std::uint64_t bytesPerVoxel);
-/// The same where one of several images along the fourth axis is wanted: bytes of one of them. `frames` becomes how
-/// many there are.
+/// Like above, for one of several images along the fourth axis: bytes of one image. Sets `frames` to their number.
 [[nodiscard]] Result<std::uint64_t> frameBytes(const std::filesystem::path& path, std::vector<std::int64_t> sizes,
                                                std::uint64_t bytesPerVoxel, std::uint64_t& frames);
 
@@ -65,7 +64,7 @@ struct ContainedImage {
 [[nodiscard]] Result<std::uint64_t> frameOf(const std::filesystem::path& path, std::uint64_t frames,
                                             const VolumeReadOptions& options);
 
-/// How the voxels lie behind their header, or in files of their own.
+/// Layout of the voxels after their header, or in separate files.
 struct VoxelFiles {
     enum class Coding { Raw, Text, Gzip, ZlibOrGzip };
 
@@ -77,10 +76,10 @@ struct VoxelFiles {
     bool swapped = false;          ///< not in the machine's byte order
 };
 
-/// The names that "slice%03d.raw 1 20 1" means (step 1 where it is left out, and what follows the step is not used).
-/// None where the text is no such pattern.
+/// Returns the names of a pattern like "slice%03d.raw 1 20 1" (default step 1; ignores text after the step). Empty if
+/// the text is no such pattern.
 [[nodiscard]] std::optional<std::vector<std::string>> numberedNames(std::string_view pattern);
-/// One name a line, up to the end of the file or an empty line.
+/// One name per line, up to the end of the file or an empty line.
 [[nodiscard]] Result<std::vector<std::string>> listedNames(ByteReader& reader);
 
 /// Gives the image its voxels; `attached` stands behind the header. Data behind the voxels is noted.
@@ -93,8 +92,8 @@ struct VoxelFiles {
 /// Says that `bytes` of data follow the voxels, which may mean that these begin later.
 void noteMore(std::uint64_t bytes, std::vector<std::string>& notes);
 
-/// Where voxel (0,0,0) is, and the step from a voxel to the next along each axis: a length times a direction, which
-/// need not be a unit vector. mm, LPS.
+/// Position of voxel (0,0,0), and the step along each axis: a length times a direction, which need not be a unit
+/// vector. mm, LPS.
 struct AffineSteps {
     std::array<Vec3, 3> directions{};
     Vec3 lengths{1, 1, 1};
@@ -104,7 +103,7 @@ struct AffineSteps {
 /// one plane. `grid.size` stays as it is.
 [[nodiscard]] Result<void> setSteps(Grid& grid, const AffineSteps& affine, const std::filesystem::path& path);
 
-/// What is assumed where a header does not say it.
+/// Default of a missing header field.
 inline constexpr const char* kNoSpacing = "the file does not say its spacing; 1 mm is taken";
 inline constexpr const char* kNoOrigin = "the file does not say where its first voxel is; 0 0 0 is taken";
 

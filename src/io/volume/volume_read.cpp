@@ -46,7 +46,7 @@ std::string nameOf(const fs::path& path) {
     return path.has_filename() ? path.filename().string() : path.parent_path().filename().string();
 }
 
-/// What every reader's volume goes through at last.
+/// The last step of every reader.
 Result<VolumeData> volumeOf(Result<StoredImage> image, const fs::path& path, std::vector<std::string> notes) {
     VOXTACT_TRY(image);
     Result<VolumeData> volume = toScalars(std::move(*image), path);
@@ -60,7 +60,7 @@ Result<VolumeData> volumeOf(Result<StoredImage> image, const fs::path& path, std
     return volume;
 }
 
-/// Whether a float may not hold the labels of such voxels.
+/// Returns true if a float may not hold the labels of such voxels.
 bool isWide(const StoredImage& image) {
     return !image.scaling && storedBytes(image.type) >= 4 && image.type != StoredType::Float32;
 }

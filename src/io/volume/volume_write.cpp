@@ -84,7 +84,7 @@ std::string metaHead(const VolumeView& volume) {
            "\nDimSize = " + sizesOf(grid) + "\nElementType = " + type + "\nElementDataFile = LOCAL\n";
 }
 
-/// Refuses what a reader would not find where it is: NIfTI holds single precision, 16-bit sizes, and right angles.
+/// Refuses volumes that NIfTI cannot hold: it has single precision, 16-bit sizes, and right angles.
 Result<std::string> niftiHead(const fs::path& path, const VolumeView& volume) {
     const auto refused = [&] {
         return cannotWrite(path, "this format cannot hold the image's size, place or direction; write a .nrrd file",
@@ -112,7 +112,7 @@ Result<std::string> niftiHead(const fs::path& path, const VolumeView& volume) {
     return bytes;
 }
 
-/// Packs what is written as gzip.
+/// Packs the output as gzip.
 class GzipWriter {
   public:
     explicit GzipWriter(std::ostream& out) : out_(out) {

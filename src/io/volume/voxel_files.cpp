@@ -76,7 +76,7 @@ Result<void> parseVoxels(const fs::path& path, std::string_view& text, std::uint
     return {};
 }
 
-/// What is odd about the ends of the files.
+/// Notes on the ends of the files.
 struct Ends {
     std::uint64_t more = 0; ///< bytes behind the voxels
     bool open = false;      ///< a text ends in a number, which may be cut off

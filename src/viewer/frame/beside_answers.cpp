@@ -68,9 +68,9 @@ void BesideAnswers::work() {
 
 Result<LiveAnswer> BesideAnswers::answer(const LiveQuestion& question) {
     const bool first = detectors_->find(question.method) == nullptr;
-    VOXTACT_TRY(detectors_->get(question.method)); // not under the lock: it takes its time
+    VOXTACT_TRY(detectors_->get(question.method)); // slow, so not under the lock
     Result<LiveAnswer> found = submit(question);
-    // Drivers compile when something is first done: that is not the time of an answer.
+    // Drivers compile at first use, which is excluded from the answer's time.
     return first && found.ok() ? submit(question) : found;
 }
 

@@ -11,8 +11,8 @@
 
 namespace voxtact::view {
 
-/// Answers of the device beside the frames, on a separate thread with its own submissions, one at a time: no frame
-/// waits for the compilation of a new method.
+/// Answers of the device on a separate thread with its own submissions, one at a time: no frame waits for the
+/// compilation of a new method.
 class BesideAnswers {
   public:
     /// The scene must outlive it. `wake`: called from its thread when there is an answer.
@@ -20,14 +20,14 @@ class BesideAnswers {
                                                                        DeviceScene& scene,
                                                                        std::shared_ptr<Detectors> detectors,
                                                                        std::function<void()> wake);
-    /// Waits for the answer that is being made.
+    /// Waits for the pending answer.
     ~BesideAnswers();
 
-    /// A question is not answered, or its answer was not taken.
+    /// Returns true if a question is pending, or its answer was not taken.
     [[nodiscard]] bool busy() const { return busy_; }
     /// Only while it is not busy.
     void ask(LiveQuestion question);
-    /// The answer, once.
+    /// Returns the answer, once.
     [[nodiscard]] std::optional<Result<LiveAnswer>> take();
 
   private:

@@ -21,7 +21,7 @@ Result<const Detector*> Detectors::get(const MethodChoice& method) {
     desc.projection = method.projection;
     desc.filter = defaultFilter(method.count);
     desc.outputs = {.triangles = true, .contacts = true, .labels = labels_};
-    Result<Detector> made = Detector::create(*context_, desc); // nobody waits for it who has one
+    Result<Detector> made = Detector::create(*context_, desc); // owners of a detector do not wait
     VOXTACT_TRY(made);
     const std::lock_guard lock(mutex_);
     return &detectors_.try_emplace(Key(method.count, method.projection), std::move(*made)).first->second;

@@ -9,15 +9,15 @@
 
 namespace voxtact::view {
 
-/// The device's detectors, each made when it is first asked for. A detector stays where it is.
-/// Thread-safety: all functions are safe from any thread.
+/// The device's detectors, each created at first use, at a stable address. Thread-safety: all functions are safe from
+/// any thread.
 class Detectors {
   public:
     Detectors(const Context& context, bool labels) : context_(&context), labels_(labels) {}
 
-    /// Null where it is not made yet.
+    /// Returns null if it does not exist yet.
     [[nodiscard]] const Detector* find(const MethodChoice& method) const;
-    /// Makes it where it is not made yet, which takes its time.
+    /// Creates it if needed, which may be slow.
     [[nodiscard]] Result<const Detector*> get(const MethodChoice& method);
 
   private:
@@ -33,12 +33,12 @@ class DeviceAnswers {
   public:
     [[nodiscard]] static Result<DeviceAnswers> create(const device::Session& session, const DeviceScene& scene,
                                                       std::shared_ptr<Detectors> detectors);
-    /// The ways to answer of this device, and of the host.
+    /// Returns the methods of this device and of the host.
     [[nodiscard]] static std::vector<MethodChoice> choices(const Context& context);
 
     /// True if record() finds a detector for it.
     [[nodiscard]] bool ready(const MethodChoice& method) const { return detectors_->find(method) != nullptr; }
-    /// Into a frame whose slot's last use is done. Under DeviceScene::recording().
+    /// Records into a frame whose slot's last use is complete. Requires DeviceScene::recording().
     [[nodiscard]] Result<void> record(VkCommandBuffer commands, const DeviceScene& scene, const LiveQuestion& question,
                                       std::uint32_t slot);
     /// Returns the answer of a slot's completed frame; empty without a question.

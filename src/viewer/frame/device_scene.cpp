@@ -11,10 +11,10 @@ namespace voxtact::view {
 
 namespace {
 
-constexpr std::size_t kAlignment = 256; // that PaintedTriangles::wrap() asks for
+constexpr std::size_t kAlignment = 256; // required by PaintedTriangles::wrap()
 constexpr Colour kBackground{0.055, 0.062, 0.075};
 
-/// Half a voxel apart in a fine picture, a whole one in a coarse one.
+/// Steps of half a voxel in a fine picture, of a voxel in a coarse one.
 RenderTransferFunctionDesc renderDesc(const State& state, bool fine) {
     const Document& document = state.document;
     RenderTransferFunctionDesc desc;

@@ -40,7 +40,7 @@ struct ShownScene {
     std::vector<SceneMesh> others;
 };
 
-/// The pairs of a question, one for each instrument, and what the batch points to. To be moved, not copied.
+/// The pairs of a question, one per instrument, and the objects that the batch points to. Movable, not copyable.
 struct AskedPairs {
     std::vector<Mat4> poses;
     std::vector<BatchItem> items;
@@ -50,26 +50,26 @@ struct AskedPairs {
 /// Everything of voxtact's on the device: one upload for pictures, slices and answers.
 class DeviceScene {
   public:
-    /// Takes the volume, which has bricks and is editable; uploads the rest, and waits. `light`: of the fine picture.
+    /// Takes the volume, which has bricks and is editable. Uploads the rest and waits. `light`: of the fine picture.
     [[nodiscard]] static Result<std::unique_ptr<DeviceScene>> create(const device::Session& session, const State& state,
                                                                      Volume volume, const Lighting& light);
 
-    /// Records holes, and the tables of a new transfer function, where there are others than before.
+    /// Records changed holes and the tables of a changed transfer function.
     [[nodiscard]] Result<void> cmdUpdate(VkCommandBuffer commands, const State& state);
     /// The commands of the last cmdUpdate() will not be executed.
     void forgetUpdate() {
         curve_.clear();
         written_ = writtenBefore_;
     }
-    /// The number of the first of State::writes that was not recorded yet.
+    /// Number of the first unrecorded write in State::writes.
     [[nodiscard]] std::uint64_t written() const { return written_; }
-    /// Paints the triangles of the last answer on all meshes, in the pictures of a slot whose last use is done.
+    /// Paints the triangles of the last answer on all meshes, in the pictures of a slot whose last use is complete.
     void paint(const State& state, std::uint32_t slot);
     /// Returns the scene of a picture with the visible meshes. Valid as long as this.
     [[nodiscard]] ShownScene scene(const State& state, std::uint32_t slot, bool fine, const Extent& extent) const;
     /// Valid as long as this.
     [[nodiscard]] AskedPairs pairs(const Edit& edit) const;
-    /// Held by the thread that records what uses or changes this: frames, and answers that are made while these go on.
+    /// Lock for threads that record commands that use or change this: frames and concurrent answers.
     [[nodiscard]] std::mutex& recording() { return recording_; }
 
     [[nodiscard]] const Volume& volume() const { return *volume_; }

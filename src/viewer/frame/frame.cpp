@@ -135,7 +135,7 @@ Result<std::unique_ptr<Stage>> Frames::put(std::unique_ptr<Stage> stage, State& 
 
 Result<void> Frames::renewSurface(const std::function<Result<VkSurfaceKHR>()>& make) {
     VOXTACT_TRY(waitForDevice());
-    swapchain_.reset(); // with the surface, of which a window has one at a time
+    swapchain_.reset(); // together with the surface: a window has one at a time
     const Result<VkSurfaceKHR> surface = make();
     VOXTACT_TRY(surface);
     Result<Swapchain> swapchain = Swapchain::create(session_->device, *surface);
@@ -176,11 +176,11 @@ Result<void> Frames::collectAnswers(State& state, double wallMilliseconds, bool 
     if (std::optional<Result<LiveAnswer>> answer = stage_->host->take()) {
         take(state, std::move(*answer));
     }
-    if (std::optional<Result<LiveClearance>> clearance = stage_->host->takeClearance()) {
-        if (clearance->ok()) {
-            state.clearance = **clearance;
-        } else if (clearance->error().code != ErrorCode::Cancelled) {
-            state.complain(clearance->error().text);
+    if (std::optional<Result<LiveClearance>> distances = stage_->host->takeDistances()) {
+        if (distances->ok()) {
+            state.distances = **distances;
+        } else if (distances->error().code != ErrorCode::Cancelled) {
+            state.complain(distances->error().text);
         }
     }
     VOXTACT_TRY(collectBeside(state));
@@ -216,7 +216,7 @@ Result<void> Frames::collectBeside(State& state) {
     return {};
 }
 
-/// Asks the next method of the comparison, while nothing else is asked.
+/// Asks the next method of the comparison, if no other question is pending.
 void Frames::compareNext(State& state) {
     if (!state.comparing || !state.settled() || !state.comparison.isOf(state.document.edit) || stage_->beside->busy()) {
         return;
@@ -233,7 +233,7 @@ void Frames::compareNext(State& state) {
     }
 }
 
-/// An answer that another method gave meanwhile is none any more.
+/// An answer of another method in the meantime is obsolete.
 void Frames::take(State& state, Result<LiveAnswer> answer) {
     if (!answer.ok()) {
         if (answer.error().code != ErrorCode::Cancelled) {
@@ -287,7 +287,7 @@ Result<void> Frames::fitStage(State& state) {
     return {};
 }
 
-/// A question that was not asked yet, of the host or into this frame; of a method that was not used before, beside it.
+/// Asks a new question: of the host, in this frame, or, for a new method, on the separate thread.
 Result<void> Frames::ask(State& state) {
     const LiveQuestion question{state.revision, state.document.edit, state.method};
     if (askedHost_ != state.revision) {

@@ -18,13 +18,13 @@ class Frames {
 
     /// True if the next frame's slot is free.
     [[nodiscard]] bool ready() const;
-    /// Before the panels: what the slot's frame and the host have answered since. Only when ready().
+    /// Call before the panels: takes new answers of the slot's frame and the host. Only when ready().
     [[nodiscard]] Result<void> collect(State& state);
-    /// After the panels. `window`: pixels; nothing is shown where one is 0.
+    /// Call after the panels. `window`: pixels; shows nothing if one is 0.
     [[nodiscard]] Result<void> show(State& state, const ImDrawData& panels, VkExtent2D window);
-    /// Shows another stage, which `state` belongs to, from the next frame on; the one before, or null, comes back.
+    /// Shows another stage, that of `state`, from the next frame on. Returns the previous one, or null.
     [[nodiscard]] Result<std::unique_ptr<Stage>> put(std::unique_ptr<Stage> stage, State& state);
-    /// The window's images on another surface, which it takes, after a frame was refused with SURFACE_LOST.
+    /// Replaces a lost surface: takes another one for the window's images.
     [[nodiscard]] Result<void> renewSurface(const std::function<Result<VkSurfaceKHR>()>& make);
     /// Returns the scene of a picture at a size, and its renderer, for use on any one thread while the stage exists.
     /// Requires a stage.
@@ -67,7 +67,7 @@ class Frames {
     std::array<Slot, kFramesInFlight> slots_{};
     std::uint32_t slot_ = 0;      ///< of the next frame
     std::uint64_t asked_ = 0;     ///< State::revision of the last question that the host or a frame was asked
-    std::uint64_t askedHost_ = 0; ///< the same of the host, which measures clearances
+    std::uint64_t askedHost_ = 0; ///< the same for the host, which measures distances
     bool besideCompares_ = false; ///< the question beside the frames belongs to the comparison
     MethodChoice besideMethod_;   ///< method of the other question beside the frames
     MethodChoice answering_;      ///< the last that gave an answer

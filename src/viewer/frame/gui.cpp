@@ -24,7 +24,7 @@ struct Placement {
     std::array<float, 2> most;
 };
 
-/// Grows to at least this size, by at least half, so it grows seldom.
+/// Grows to at least this size, and by at least half to grow rarely.
 Result<void> grow(const device::VulkanDevice& device, HostBuffer& buffer, std::size_t bytes, VkBufferUsageFlags usage) {
     if (buffer.bytes().size() >= bytes && !buffer.bytes().empty()) {
         return {};

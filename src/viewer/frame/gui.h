@@ -17,7 +17,7 @@ struct ShownTexture {
     SampledPart part;
 };
 
-/// Draws what Dear ImGui's panels made, by a pipeline of our own: dynamic rendering, no linked loader.
+/// Draws the output of Dear ImGui with its own pipeline: dynamic rendering, no linked loader.
 class Gui {
   public:
     /// Uses the current ImGui context, whose font it uploads: submits, and waits.
@@ -29,8 +29,8 @@ class Gui {
     void setTexture(VkDescriptorSet texture, VkImageView view, VkImageLayout layout) const {
         drawing_.textures.set(texture, view, layout);
     }
-    /// Inside a rendering of the window's image. `slot`: of the frame; its last use is done. `picture`: which of the
-    /// pictures there is in this frame is not known before the panels are drawn.
+    /// Call inside a rendering of the window's image. `slot`: of the frame; its last use is complete. `picture`: the
+    /// picture of this frame, known only after the panels.
     [[nodiscard]] Result<void> record(VkCommandBuffer commands, const ImDrawData& data, std::uint32_t slot,
                                       const ShownTexture& picture);
 

@@ -77,9 +77,9 @@ std::optional<Result<LiveAnswer>> HostAnswers::take() {
     return std::exchange(answer_, std::nullopt);
 }
 
-std::optional<Result<LiveClearance>> HostAnswers::takeClearance() {
+std::optional<Result<LiveClearance>> HostAnswers::takeDistances() {
     const std::lock_guard lock(mutex_);
-    return std::exchange(clearance_, std::nullopt);
+    return std::exchange(distances_, std::nullopt);
 }
 
 template <class Found> void HostAnswers::give(std::optional<Result<Found>>& to, Result<Found> found) {
@@ -114,24 +114,24 @@ void HostAnswers::work() {
     }
 }
 
-/// The live question: the volume becomes its own first.
+/// The live question: first updates the volume.
 void HostAnswers::follow(const LiveQuestion& question, const std::vector<HoleWrite>& writes) {
     for (const HoleWrite& write : writes) {
         if (const Result<void> written = volume_.write(write.hole->box, write.voxels()); !written.ok()) {
-            give(clearance_, Result<LiveClearance>(written.error()));
+            give(distances_, Result<LiveClearance>(written.error()));
         }
     }
     if (rowOf(question.method.count).host) {
         give(answer_, guard([&] { return answer(question, stop_); }));
     }
-    const Result<LiveClearance> clearance = guard([&] { return measure(question); });
-    give(clearance_, clearance);
-    if (!clearance.ok()) {
+    const Result<LiveClearance> distances = guard([&] { return measure(question); });
+    give(distances_, distances);
+    if (!distances.ok()) {
         return;
     }
-    Result<LiveClearance> all = guard([&] { return withAreas(question, *clearance); });
+    Result<LiveClearance> all = guard([&] { return withAreas(question, *distances); });
     if (all.ok() || all.error().code != ErrorCode::Cancelled) {
-        give(clearance_, std::move(all));
+        give(distances_, std::move(all));
     }
 }
 
@@ -185,17 +185,17 @@ Result<LiveClearance> HostAnswers::measure(const LiveQuestion& question) {
     return out;
 }
 
-Result<LiveClearance> HostAnswers::withAreas(const LiveQuestion& question, LiveClearance clearance) {
+Result<LiveClearance> HostAnswers::withAreas(const LiveQuestion& question, LiveClearance distances) {
     const auto begun = State::Clock::now();
     const Result<cpu::Batch> batch = batchOf(question, newer_);
     VOXTACT_TRY(batch);
     const Result<AreaAnswer> found = engine_.ask(Area{}, *batch);
     VOXTACT_TRY(found);
     for (std::size_t i = 0; i < found->pairs.size(); ++i) {
-        clearance.meshes[i].area = found->pairs[i];
+        distances.meshes[i].area = found->pairs[i];
     }
-    clearance.milliseconds += since(begun);
-    return clearance;
+    distances.milliseconds += since(begun);
+    return distances;
 }
 
 } // namespace voxtact::view

@@ -16,23 +16,23 @@ namespace voxtact::view {
 /// new question cancels measurements and comparisons.
 class HostAnswers {
   public:
-    /// Copies what it needs of the state. `wake`: called from its thread when there is an answer.
+    /// Copies its inputs from the state. `wake`: called from its thread when there is an answer.
     [[nodiscard]] static Result<std::unique_ptr<HostAnswers>> create(const State& state, std::function<void()> wake);
     ~HostAnswers();
 
-    /// The clearance, then the area, and the answer where the question's method is the host's. `writes`: to the volume
-    /// since it was read.
+    /// Measures the distance, then the area, and answers if the question's method is the host's. `writes`: to the
+    /// volume since it was read.
     void ask(LiveQuestion question, const HoleWrites& writes);
-    /// The number of the first write that was not taken over yet.
+    /// Number of the first write that was not applied yet.
     [[nodiscard]] std::uint64_t written() const { return written_; }
-    /// A question of a comparison, when there is nothing else to do.
+    /// Asks a question of a comparison, if idle.
     void compare(LiveQuestion question);
     /// Returns the result of a comparison's question, once; Cancelled if another question cancelled it.
     [[nodiscard]] std::optional<Result<LiveAnswer>> takeCompared();
-    /// The newest answer, once; nothing where there is no new one.
+    /// Returns the newest answer, once; empty if there is no new one.
     [[nodiscard]] std::optional<Result<LiveAnswer>> take();
     /// Returns the distances, once without and once with areas.
-    [[nodiscard]] std::optional<Result<LiveClearance>> takeClearance();
+    [[nodiscard]] std::optional<Result<LiveClearance>> takeDistances();
 
   private:
     HostAnswers(cpu::HostEngine engine, cpu::Volume volume, std::vector<cpu::Mesh> meshes, const State& state,
@@ -44,7 +44,7 @@ class HostAnswers {
     [[nodiscard]] Result<LiveAnswer> answer(const LiveQuestion& question, const std::atomic<bool>& cancel);
     [[nodiscard]] Result<LiveClearance> measure(const LiveQuestion& question);
     /// Adds the areas to the distances.
-    [[nodiscard]] Result<LiveClearance> withAreas(const LiveQuestion& question, LiveClearance clearance);
+    [[nodiscard]] Result<LiveClearance> withAreas(const LiveQuestion& question, LiveClearance distances);
     void follow(const LiveQuestion& question, const std::vector<HoleWrite>& writes);
 
     cpu::HostEngine engine_;
@@ -68,7 +68,7 @@ class HostAnswers {
     std::uint64_t written_ = 0;     ///< that were taken over
     std::optional<Result<LiveAnswer>> answer_;
     std::optional<Result<LiveAnswer>> compared_;
-    std::optional<Result<LiveClearance>> clearance_;
+    std::optional<Result<LiveClearance>> distances_;
     std::atomic<bool> stop_ = false;
     std::atomic<bool> newer_ = false; ///< a question waits
     std::thread thread_;

@@ -45,7 +45,7 @@ Result<Volume> upload(const device::Session& session, const State& state, std::u
     return Stage::upload(session, state.volume);
 }
 
-/// The least factor that a limit of the sides asks for; at least twice as coarse as it is.
+/// Returns the minimum factor for a limit of the sides; at least twice the current one.
 std::uint32_t factorFor(const State& state, std::uint32_t mostSide) {
     std::uint32_t factor = 2 * state.coarserBy;
     while (mostSide != 0 && largestSide(state.volume.grid) * state.coarserBy > mostSide * factor) {
@@ -103,7 +103,7 @@ std::optional<std::variant<Loaded, LoadFailure>> Loader::take() {
     if (!outcome) {
         return std::nullopt;
     }
-    if (of != progress_) { // it was cancelled when it was done already
+    if (of != progress_) { // cancelled after it was complete
         if (auto* const loaded = std::get_if<Loaded>(&*outcome)) {
             discard(std::move(loaded->stage));
         }

@@ -8,12 +8,12 @@ namespace voxtact::view {
 /// Files to read, and objects to create for the window.
 struct LoadTask {
     std::function<Result<Given>(Progress&)> read; ///< called on the loader's thread
-    std::optional<FileKind> opened;               ///< file that was opened in addition; empty: everything is replaced
+    std::optional<FileKind> opened;               ///< file opened in addition; empty: replaces everything
     std::uint32_t mostSide = 0;                   ///< voxels along a side that are shown; 0: what the device takes
     StageDesc stage;
 };
 
-/// A State and what it is drawn from.
+/// A State and its stage.
 struct Loaded {
     std::unique_ptr<State> state;
     std::unique_ptr<Stage> stage;
@@ -29,28 +29,28 @@ struct LoadFailure {
     std::uint32_t coarser = 1;
 };
 
-/// Reads files and makes stages on a thread of its own, one at a time; of several tasks the last is done.
-/// Thread-safety: none; its own thread apart, one thread at a time.
+/// Reads files and creates stages on its own thread, one at a time; of several tasks, only the last is done.
+/// Thread-safety: none, apart from its own thread.
 class Loader {
   public:
-    /// `wake` is called from the loader's thread when something is to be taken. The session must outlive it.
+    /// `wake`: called from the loader's thread when a result is available. The session must outlive it.
     Loader(const device::Session& session, std::function<void()> wake);
     Loader(const Loader&) = delete;
     Loader& operator=(const Loader&) = delete;
-    /// Cancels, and waits for what cannot be.
+    /// Cancels, and waits for the rest.
     ~Loader();
 
-    /// Instead of the task before, if that is not done.
+    /// Starts a task; replaces a pending one.
     void start(LoadTask task);
     /// Cancels the task.
     void cancel();
-    /// Null while there is no task.
+    /// Returns null without a task.
     [[nodiscard]] const Progress* progress() const { return progress_.get(); }
     /// Returns the result of the task, once.
     [[nodiscard]] std::optional<std::variant<Loaded, LoadFailure>> take();
-    /// Ends a stage that no frame uses any more, on the loader's thread: that may wait.
+    /// Destroys a stage that no frame uses, on the loader's thread, because it may wait.
     void discard(std::unique_ptr<Stage> stage);
-    /// Calls it on the loader's thread, when the task that is being done is. It must not throw.
+    /// Calls a function on the loader's thread after the current task. It must not throw.
     void run(std::function<void()> work);
 
   private:

@@ -6,8 +6,8 @@
 
 namespace voxtact::view {
 
-/// The large picture: coarse at once, as large as a frame has time for, and fine when nothing changes any more, some
-/// rows per frame. Its images are in the layout GENERAL.
+/// The large picture: coarse at first, as large as a frame has time for, then fine when nothing changes, some rows per
+/// frame. Its images are in the layout GENERAL.
 class Pictures {
   public:
     [[nodiscard]] static Result<Pictures> create(const device::Session& session, const Renderer& renderer,
@@ -16,18 +16,18 @@ class Pictures {
     Pictures& operator=(Pictures&&) = delete;
     ~Pictures();
 
-    /// Images for that size. Where it is another than before nothing may be in flight.
+    /// Creates images of that size. If it changes, nothing may be in flight.
     [[nodiscard]] Result<void> resize(const Renderer& renderer, const Extent& extent);
     [[nodiscard]] bool fits(const Extent& extent) const;
 
     /// Records the frame's share of the picture of `state`, if any, and sets the progress of the fine picture.
     [[nodiscard]] Result<void> record(VkCommandBuffer commands, DeviceScene& scene, State& state, std::uint32_t slot);
-    /// The times of a slot's frame, which is done.
+    /// Records the times of a slot's completed frame.
     void collect(std::uint32_t slot, double wallMilliseconds);
 
     [[nodiscard]] VkImageView coarse() const { return coarse_.view(); }
     [[nodiscard]] VkImageView fine() const { return fine_.view(); }
-    /// The part of coarse() that was drawn last.
+    /// Returns the part of coarse() that was drawn last.
     [[nodiscard]] SampledPart coarsePart() const { return sampledPart(shown_, full_); }
 
   private:

@@ -7,7 +7,7 @@
 #include <functional>
 #include <span>
 
-/// The window's own Vulkan objects, in addition to those of voxtact: what an embedder has in its engine.
+/// The window's own Vulkan objects, in addition to voxtact's, like those of an embedding engine.
 namespace voxtact::view {
 
 /// Number of frames in flight.
@@ -131,7 +131,7 @@ struct LayoutChange {
 void layoutBarrier(const device::VulkanDevice& device, VkCommandBuffer commands, const LayoutChange& change,
                    const BarrierSide& before, const BarrierSide& after);
 
-/// Records by `record`, submits on the session's queue, and waits.
+/// Records with `record`, submits to the session's queue, and waits.
 [[nodiscard]] Result<void> submitAndWait(const device::Session& session,
                                          const std::function<void(VkCommandBuffer)>& record);
 

@@ -9,7 +9,7 @@
 
 namespace voxtact::view {
 
-/// The gray slices, drawn from the volume's own image on the device by a shader of ours. Images in GENERAL.
+/// The gray slices, drawn from the volume's image on the device. Images in GENERAL.
 class SlicePass {
   public:
     [[nodiscard]] static Result<SlicePass> create(const device::Session& session, const Volume& volume);
@@ -41,7 +41,7 @@ class SlicePass {
     VkDescriptorSet volume_ = VK_NULL_HANDLE;
     std::array<Image, 3> images_;
     std::array<std::optional<Push>, 3> drawn_;
-    std::uint64_t written_ = 0; ///< State::writes that they show
+    std::uint64_t written_ = 0; ///< number of State::writes in them
 };
 
 } // namespace voxtact::view

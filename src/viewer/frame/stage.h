@@ -18,13 +18,12 @@ struct StageDesc {
     std::array<Extent, 3> slices{{{16, 16}, {16, 16}, {16, 16}}};
 };
 
-/// All that belongs to one volume and its meshes, on the device and on the host. Made on any thread while the frames of
-/// another one go on; afterwards it is the frames' own.
+/// Objects of one volume and its meshes, on the device and on the host. Created on any thread while another stage is
+/// shown; afterwards owned by the frames.
 struct Stage {
     /// Uploads the volume of stages. LimitExceeded and OutOfMemory: it is too large for the device.
     [[nodiscard]] static Result<Volume> upload(const device::Session& session, const VolumeData& volume);
-    /// Takes the volume of `state`. Waits for the device, and has drawn and answered once, so that all that is made on
-    /// the way is there.
+    /// Takes the volume of `state`. Waits for the device, and draws and answers once, so that everything is compiled.
     [[nodiscard]] static Result<std::unique_ptr<Stage>> create(const device::Session& session, const State& state,
                                                                Volume volume, const StageDesc& desc,
                                                                Progress& progress);

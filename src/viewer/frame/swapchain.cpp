@@ -84,7 +84,7 @@ void Swapchain::destroyImages() noexcept {
     images_.clear();
 }
 
-/// The colours of the panels and pictures are sRGB already: nothing may convert them again.
+/// Panels and pictures have sRGB colours already: no second conversion.
 Result<void> Swapchain::chooseFormat() {
     const auto list =
         instanceFunction<PFN_vkGetPhysicalDeviceSurfaceFormatsKHR>(*device_, "vkGetPhysicalDeviceSurfaceFormatsKHR");

@@ -8,10 +8,10 @@
 
 namespace voxtact::view {
 
-/// The images of a window. Made again when the window changes its size.
+/// The images of a window, recreated when the window changes its size.
 class Swapchain {
   public:
-    /// The surface is the window's; this owns it from now on.
+    /// Takes ownership of the window's surface.
     [[nodiscard]] static Result<Swapchain> create(const device::VulkanDevice& device, VkSurfaceKHR surface);
     Swapchain(Swapchain&& other) noexcept;
     Swapchain& operator=(Swapchain&&) = delete;
@@ -24,9 +24,9 @@ class Swapchain {
     [[nodiscard]] VkFormat format() const noexcept { return format_.format; }
     [[nodiscard]] VkExtent2D extent() const noexcept { return extent_; }
 
-    /// The number of an image to draw into once `acquired` is signalled; false where the images are stale.
+    /// Returns the number of an image to draw into once `acquired` is signalled; false if the images are stale.
     [[nodiscard]] Result<bool> acquire(VkSemaphore acquired, std::uint32_t& image);
-    /// Shows it when it is drawn().
+    /// Shows the image after drawing.
     [[nodiscard]] Result<void> present(VkQueue queue, std::uint32_t image);
     [[nodiscard]] VkImage image(std::uint32_t number) const { return images_[number]; }
     [[nodiscard]] VkImageView view(std::uint32_t number) const { return views_[number]; }

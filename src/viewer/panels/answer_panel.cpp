@@ -40,7 +40,7 @@ void drawTimes(const State& state) {
     shortLine(quietColour(), text.data());
 }
 
-/// The verdicts of the last seconds by their colours, and how long each took: a bar, by powers of ten from 0.01 ms on.
+/// Draws the verdicts of the last seconds as colours, and their times as bars on a logarithmic scale from 0.01 ms on.
 void drawStrip(const State& state) {
     constexpr double kLeast = 0.01; // ms
     constexpr double kMost = 1000;
@@ -87,22 +87,22 @@ void drawLabels(const State& state) {
     }
 }
 
-void drawClearance(const State& state) {
-    const MeshClearance* clearance = state.chosenClearance();
-    if (clearance == nullptr) {
+void drawDistance(const State& state) {
+    const MeshClearance* measured = state.chosenDistance();
+    if (measured == nullptr) {
         ImGui::TextColored(quietColour(), "measuring ...");
         return;
     }
     ImVec4 colour = ImGui::GetStyle().Colors[ImGuiCol_Text];
-    colour.w = state.clearance->revision == state.revision ? 1.0F : 0.5F;
-    const std::string text = clearanceText(*clearance);
+    colour.w = state.distances->revision == state.revision ? 1.0F : 0.5F;
+    const std::string text = clearanceText(*measured);
     ImGui::TextColored(colour, "%s", shortened(text, ImGui::GetContentRegionAvail().x).c_str());
     if (ImGui::IsItemHovered()) {
         ImGui::SetTooltip("%s\n"
                           "Certified, by the host, in %.1f ms for all meshes: between these bounds lies\n"
                           "the least distance between the mesh and what is opaque or, where it touches,\n"
                           "the area of its surface that is opaque.",
-                          text.c_str(), state.clearance->milliseconds);
+                          text.c_str(), state.distances->milliseconds);
     }
 }
 
@@ -143,7 +143,7 @@ void drawAnswer(State& state) {
     shortLine(ImGui::GetStyle().Colors[ImGuiCol_Text], countText(answer.pair));
     shortLine(quietColour(), trianglesText(answer));
     ImGui::EndGroup();
-    drawClearance(state);
+    drawDistance(state);
     drawLabels(state);
     drawMethods(state);
     drawTimes(state);

@@ -15,8 +15,8 @@ namespace {
 /// Text of an edited field, which Dear ImGui drops when another field gets the keyboard.
 struct Typed {
     ImGuiID field = 0; ///< 0: none
-    double began = 0;  ///< what stood there at first
-    double number = 0; ///< what stands there now; `began` where that is no whole number
+    double began = 0;  ///< initial number
+    double number = 0; ///< current number; `began` if it is incomplete
     int frame = 0;     ///< the last one that showed it
 
     [[nodiscard]] bool isOf(ImGuiID item) const { return field == item && frame + 1 == ImGui::GetFrameCount(); }
@@ -55,8 +55,8 @@ bool isNumberIn(ImGuiID item) {
            std::string_view(end, text.data() + text.size()).find_first_not_of(" \t") == std::string_view::npos;
 }
 
-/// An item that is `draw`n with a number and says whether that is another one. `isTyped`: by its ID, whether it is
-/// written in now.
+/// Draws an item with a number, by `draw`; returns true if the number changed. `isTyped`: tests by ID whether the user
+/// types in it.
 template <class Number, class Draw, class IsTyped>
 bool takes(const char* label, Number& number, const Draw& draw, const IsTyped& isTyped) {
     const ImGuiID item = ImGui::GetID(label);

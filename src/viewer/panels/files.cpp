@@ -55,8 +55,8 @@ struct PathDialog {
     std::string path;
     Result<void> (*check)(const std::filesystem::path& path, const State& state); ///< what act() would refuse; or null
     Result<void> (*act)(const std::filesystem::path& path, State& state);
-    std::string written{};  ///< the path that it wrote last: it is written again without a question
-    std::string replaced{}; ///< a path that is there already, and has been asked about
+    std::string written{};  ///< path that it wrote last, which needs no confirmation
+    std::string replaced{}; ///< existing path that was confirmed
     bool takesKeyboard = false;
 
     /// Returns true to proceed: an existing file is replaced only after a confirmation. Opening replaces nothing.
@@ -152,7 +152,7 @@ void drawPathDialog(PathDialog& dialog, State& state) {
             dialog.path.clear();
         }
         dialog.replaced.clear();
-        state.entered = state.escaped = false; // they were pressed before it was there
+        state.entered = state.escaped = false; // pressed before it opened
         dialog.takesKeyboard = true;
     }
     if (std::exchange(dialog.takesKeyboard, false)) {

@@ -184,7 +184,7 @@ void takeKey(State& state, const KeyPress& press) {
 
 void answerQuestion(Question& question, const std::vector<KeyPress>& keys) {
     for (const KeyPress& press : keys) {
-        if (press.held) { // it answered what it was pressed for
+        if (press.held) { // it already had its effect
             continue;
         }
         if (press.key == GLFW_KEY_ENTER || press.key == GLFW_KEY_KP_ENTER) {
@@ -217,7 +217,7 @@ void row(const char* key, const char* does) {
 
 void takeKeys(State& state) {
     const std::vector<KeyPress> keys = std::exchange(state.keys, {});
-    // One that is held answers what it was pressed for, and not what that leads to.
+    // A held key has only its first effect.
     const auto pressed = [&keys](int key) {
         return std::ranges::any_of(keys, [key](const KeyPress& press) { return press.key == key && !press.held; });
     };

@@ -114,7 +114,7 @@ void drawPanes(State& state, const ImVec2& size) {
 /// display.
 template <class Draw> void card(const char* name, float height, float& whole, Draw&& draw) {
     const ImGuiStyle& style = ImGui::GetStyle();
-    // One that grows has its height a frame later: until then it is cut, and nothing in it becomes narrower.
+    // A growing child gets its height a frame later: until then it is cut, and its contents keep their width.
     const ImGuiWindowFlags fixed = ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse;
     const bool inSight =
         ImGui::BeginChild(name, {0, height}, false,

@@ -36,7 +36,7 @@ void drawLoading(State& state) {
     if (loading.share) {
         ImGui::ProgressBar(static_cast<float>(*loading.share), {width, 0});
     } else {
-        // Back and forth, while it is not known how much there is.
+        // Moves back and forth while the total is unknown.
         const double turn = std::fmod(loading.seconds, 2.0);
         ImGui::PushStyleColor(ImGuiCol_Text, {0, 0, 0, 0});
         ImGui::ProgressBar(static_cast<float>(turn < 1 ? turn : 2 - turn), {width, 0});

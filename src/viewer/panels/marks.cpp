@@ -28,7 +28,7 @@ Pixel pixelOf(ImU32 colour) {
     return {value.x, value.y, value.z, value.w};
 }
 
-/// Linearly between the texels round a place, 0..1 over the font.
+/// Samples the font bilinearly at a position, 0..1.
 Pixel sample(const Marks::Font& font, float u, float v) {
     const float x = std::clamp(u * static_cast<float>(font.width) - 0.5F, 0.0F, static_cast<float>(font.width - 1));
     const float y = std::clamp(v * static_cast<float>(font.height) - 0.5F, 0.0F, static_cast<float>(font.height - 1));

@@ -20,18 +20,18 @@ std::string nameOf(const MeshSource& source) {
 }
 
 /// Distance, or contact area.
-std::string nearness(const MeshClearance& clearance) {
-    const auto& [lo, hi] = clearance.pair.bounds;
+std::string nearness(const MeshClearance& measured) {
+    const auto& [lo, hi] = measured.pair.bounds;
     if (std::isinf(lo)) {
         return "-";
     }
-    if (hi == 0 && clearance.area && clearance.area->bounds.lower > 0) {
-        return lowerText(clearance.area->bounds.lower) + " mm\u00b2";
+    if (hi == 0 && measured.area && measured.area->bounds.lower > 0) {
+        return lowerText(measured.area->bounds.lower) + " mm\u00b2";
     }
     return (std::isinf(hi) ? "> " : "") + lowerText(lo) + " mm";
 }
 
-/// Verdict, count and clearance, pale where they are of the question before.
+/// Draws verdict, count and distance, pale for an earlier question.
 void drawSaid(const State& state, std::size_t mesh) {
     const MeshAnswer* answer = state.answer ? state.answer->of(mesh) : nullptr;
     ImGui::TableNextColumn();
@@ -46,10 +46,10 @@ void drawSaid(const State& state, std::size_t mesh) {
         ImGui::Text("%s%llu", exact, static_cast<unsigned long long>(answer->pair.count));
     }
     ImGui::TableNextColumn();
-    if (const MeshClearance* clearance = state.clearance ? state.clearance->of(mesh) : nullptr) {
-        const bool current = state.clearance->revision == state.revision;
+    if (const MeshClearance* measured = state.distances ? state.distances->of(mesh) : nullptr) {
+        const bool current = state.distances->revision == state.revision;
         const ImVec4 colour = current ? ImGui::GetStyle().Colors[ImGuiCol_Text] : quietColour();
-        ImGui::TextColored(colour, "%s", nearness(*clearance).c_str());
+        ImGui::TextColored(colour, "%s", nearness(*measured).c_str());
     }
 }
 
@@ -118,12 +118,12 @@ void drawMeshes(State& state) {
     if (!ImGui::BeginTable("meshes", 6, flags, {0, count > kMostRows ? row * kMostRows : 0})) {
         return;
     }
-    for (const char* column : {"shown", "name", "verdict", "count", "clearance", "remove"}) {
+    for (const char* column : {"shown", "name", "verdict", "count", "distance", "remove"}) {
         const bool name = column == std::string_view("name");
         ImGui::TableSetupColumn(column, name ? ImGuiTableColumnFlags_WidthStretch : ImGuiTableColumnFlags_WidthFixed);
     }
     Wish wish;
-    // One that becomes the chosen one is brought into sight, and then the wheel may leave it.
+    // Scrolls to a newly chosen mesh once.
     const std::size_t chosen = state.document.edit.instrument().mesh;
     const bool scrolls = std::exchange(state.listedMesh, chosen) != chosen;
     for (std::size_t number = 0; number < count; ++number) {

@@ -9,7 +9,7 @@
 #include <span>
 #include <string>
 
-/// The window's panels: they read and write a State, and know no Vulkan.
+/// The window's panels: they read and write a State, without Vulkan.
 namespace voxtact::view {
 
 struct Onto;
@@ -20,7 +20,8 @@ void drawPanels(State& state);
 /// Sets colours, spacing and the font, for a display with this number of pixels per point.
 void applyTheme(float scale, std::span<const unsigned char> font);
 void setColours(Theme theme);
-/// A length on a display where a point is a pixel, on the one that there is: for all that is not as large as text.
+/// Scales a length from a display with one pixel per point to the current one: for lengths that do not follow the text
+/// size.
 [[nodiscard]] float scaled(float length);
 /// Green, red or yellow for a hitNumber(), on a card of the theme and on a picture.
 [[nodiscard]] ImVec4 verdictColour(int hit);
@@ -33,7 +34,7 @@ void setColours(Theme theme);
 [[nodiscard]] ImVec4 quietColour();
 inline constexpr ImU32 kContactColour = IM_COL32(255, 90, 50, 255);
 
-// The parts; each inside of a window or child that the layout has begun.
+// Parts of the window, each inside a window or child that the layout has begun.
 void drawAnswer(State& state);
 void drawInstrument(State& state);
 /// Draws the list of meshes with their answers; nothing for a single visible mesh.
@@ -42,9 +43,9 @@ void drawCurve(State& state);
 void drawPicture(State& state);
 /// Draws the marks over the picture, except the handles.
 void drawMarks(const State& state, const Onto& onto, ImDrawList& list);
-/// A dialog while a picture is made for a file, with a button that cancels it.
+/// Draws a dialog while a picture is made for a file, with a cancel button.
 void drawSaving(State& state);
-/// Handles in the picture: whether they have the mouse. After the picture's item.
+/// Draws the handles in the picture; returns true if they have the mouse. Call after the picture's item.
 [[nodiscard]] bool takeGizmo(State& state, const ImVec2& corner, const ImVec2& size);
 void drawGizmo(const State& state, const Onto& onto, ImDrawList& list);
 /// Draws the cube of the patient's sides; returns true if it has the mouse. A click selects a view. After the picture's
@@ -57,14 +58,14 @@ void drawCube(const State& state, const Onto& onto, ImDrawList& list);
 void drawGizmoChoice(State& state);
 void drawSlice(State& state, std::size_t slice);
 void drawContacts(State& state);
-/// A window with what each method says of the chosen mesh, while it is asked for.
+/// Draws a window with each method's answer for the chosen mesh, while requested.
 void drawComparison(State& state);
 /// Dialogs of files, and their menu.
 void drawFileMenu(State& state);
 void drawDialogs(State& state);
 /// Draws the progress of loading, and a button that cancels it.
 void drawLoading(State& state);
-/// A dialog with a choice, where there is one to make.
+/// Draws a pending dialog with a choice.
 void drawQuestion(State& state);
 /// Opens the dialog for a file to open.
 void askForFile();
@@ -82,14 +83,14 @@ void heading(const char* text);
 void addRimmed(ImDrawList& list, const ImVec2& at, ImU32 colour, const char* text);
 /// Shortens a line to a width, with dots.
 [[nodiscard]] std::string shortened(const std::string& text, float width);
-/// The first of some texts that a width has room for; where there is none, the last.
+/// Returns the first of some texts that fits a width, else the last.
 [[nodiscard]] std::string fitting(std::initializer_list<std::string> texts, float width);
 /// Draws a line, shortened if too long; complete in the tooltip.
 void shortLine(const ImVec4& colour, const std::string& text);
 /// Width of a button or checkbox with its text.
 [[nodiscard]] float widthOfButton(const char* text);
 [[nodiscard]] float widthOfCheckbox(const char* text);
-/// On with the line where it has room for an item of that width.
+/// Continues the line if an item of that width fits.
 void sameLine(float width);
 /// Clipboard and status line.
 void copyCommand(State& state);

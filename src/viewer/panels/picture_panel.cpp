@@ -57,19 +57,19 @@ void drawPath(const State& state, const Onto& onto, ImDrawList& list) {
 }
 
 void drawClosest(const State& state, const Onto& onto, ImDrawList& list) {
-    const MeshClearance* clearance = state.chosenClearance();
-    const auto segment = clearance != nullptr ? closestSegment(clearance->pair) : std::nullopt;
+    const MeshClearance* measured = state.chosenDistance();
+    const auto segment = measured != nullptr ? closestSegment(measured->pair) : std::nullopt;
     if (!segment) {
         return;
     }
-    const bool current = state.clearance->revision == state.revision;
+    const bool current = state.distances->revision == state.revision;
     const ImU32 colour = closestColour(current ? 1.0F : 0.4F);
     const ImVec2 from = onto.at((*segment)[0]);
     const ImVec2 to = onto.at((*segment)[1]);
     list.AddLine(from, to, colour, scaled(2));
     list.AddCircleFilled(from, scaled(3.5F), colour);
     list.AddCircleFilled(to, scaled(3.5F), colour);
-    const std::string text = upperText(clearance->pair.bounds.upper) + " mm";
+    const std::string text = upperText(measured->pair.bounds.upper) + " mm";
     const ImVec2 at{(from.x + to.x) / 2 + scaled(8), (from.y + to.y) / 2 - ImGui::GetFontSize() / 2};
     list.AddText({at.x + scaled(1), at.y + scaled(1)}, IM_COL32(0, 0, 0, 200), text.c_str());
     list.AddText(at, colour, text.c_str());

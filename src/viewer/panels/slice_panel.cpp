@@ -64,14 +64,14 @@ void drawMesh(const State& state, const Instrument& instrument, std::size_t slic
 
 /// Faint where it is outside the slice.
 void drawClosest(const State& state, std::size_t slice, const SlicePlace& place, const Rect& rect, ImDrawList& list) {
-    const MeshClearance* clearance = state.chosenClearance();
-    const auto segment = clearance != nullptr ? closestSegment(clearance->pair) : std::nullopt;
+    const MeshClearance* measured = state.chosenDistance();
+    const auto segment = measured != nullptr ? closestSegment(measured->pair) : std::nullopt;
     if (!segment) {
         return;
     }
     const std::size_t axis = kSlices[slice].axis;
     const bool here = distanceOfPlane(*segment, axis, state.cursor[axis]) <= stepOf(state);
-    const bool current = state.clearance->revision == state.revision;
+    const bool current = state.distances->revision == state.revision;
     const ImU32 colour = closestColour((here ? 1.0F : 0.45F) * (current ? 1.0F : 0.5F));
     const ImVec2 from = rect.at(pictureAt(place, (*segment)[0]));
     const ImVec2 to = rect.at(pictureAt(place, (*segment)[1]));

@@ -16,7 +16,7 @@ namespace voxtact::app {
 
 namespace {
 
-/// A window that is not there cannot say which file is at fault.
+/// Without a window, a dialog cannot name the faulty file.
 Error noDisplay(const ViewerOptions& options, const Error& error) {
     view::Progress progress;
     const Result<Opened> opened = openDocument(options, progress);
@@ -72,7 +72,7 @@ void addReaders(view::WindowDesc& desc, const ViewerOptions& options, const std:
     };
 }
 
-/// A session is opened in the window, which asks where its files are when they are gone.
+/// A session opens in the window, which asks for missing files.
 Result<void> addSession(view::WindowDesc& desc, const ViewerOptions& options) {
     if (options.session.empty()) {
         return {};

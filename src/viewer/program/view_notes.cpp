@@ -33,7 +33,7 @@ std::vector<std::string> windowNotes(const view::State& state) {
                                                 state.values, document.edit.threshold, document.sources.volume, true)) {
         notes.push_back(said);
     }
-    // Most often a mesh that strikes by its size is in another unit than was said.
+    // A mesh of a suspicious size usually has another unit than stated.
     for (const view::Instrument& instrument : document.edit.instruments) {
         const std::string said =
             sizeNote(state.bounds[instrument.mesh], instrument.world_from_object, state.volume.grid);

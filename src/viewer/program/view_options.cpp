@@ -34,7 +34,7 @@ std::vector<const char*> curvePresetNames() {
     return names;
 }
 
-/// A method that was asked for, or the host for --device cpu.
+/// Returns the requested method, or the host for --device cpu.
 std::optional<view::MethodChoice> methodOf(const ViewerOptions& options) {
     const MethodOptions& method = options.method;
     if (options.device.wanted == "cpu") {
@@ -123,7 +123,7 @@ Result<void> load(const view::Sources& sources, Opened& opened, view::Progress& 
     return {};
 }
 
-/// A session, and the files that it names; nothing of one that cannot be read.
+/// Returns a session and its files; empty if it is unreadable.
 void addSessionPaths(std::vector<NamedPath>& paths, const std::filesystem::path& session) {
     constexpr const char* kOption = "--session";
     addInput(paths, kOption, session);
@@ -270,7 +270,7 @@ Result<Opened> openWanted(const view::Wanted& wanted, view::Progress& progress) 
     Opened opened;
     opened.document = wanted.document;
     view::Sources& sources = opened.document.sources;
-    if (sources.meshes.empty()) { // a volume was opened beside nothing
+    if (sources.meshes.empty()) { // a volume was opened without other contents
         sources.meshes.push_back({"builtin:scalpel", "lps", 1});
     }
     VOXTACT_TRY(load(sources, opened, progress));

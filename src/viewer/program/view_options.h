@@ -30,10 +30,10 @@ struct ViewerOptions {
 /// Adds the command `view`.
 [[nodiscard]] Command addView(CLI::App& program);
 void addViewerOptions(CLI::App& parser, ViewerOptions& options);
-/// Refuses an output of the window that is one of its inputs.
+/// Refuses an output that is also an input.
 [[nodiscard]] Result<void> checkWindowOutput(const std::filesystem::path& output,
                                              const std::vector<std::string>& inputs);
-/// Checks that a parser cannot make.
+/// Checks beyond the parser's.
 [[nodiscard]] Result<void> checkViewerOptions(const ViewerOptions& options);
 
 /// Initial contents, with volume and mesh read.
@@ -46,7 +46,7 @@ struct Opened {
     std::vector<std::string> read; ///< paths of poses and a transfer function
 };
 [[nodiscard]] Result<Opened> openDocument(const ViewerOptions& options, view::Progress& progress);
-/// The session alone, answered as the options say.
+/// Returns the session, with the method of the options.
 [[nodiscard]] Result<view::Document> sessionOf(const ViewerOptions& options);
 /// Like openDocument(), for files opened in the window.
 [[nodiscard]] Result<Opened> openWanted(const view::Wanted& wanted, view::Progress& progress);

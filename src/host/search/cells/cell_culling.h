@@ -16,8 +16,8 @@ namespace voxtact::cpu {
 struct CellCullingJob {
     const BrickCells& known;
     const CellBox& cells;
-    glm::dvec3 along{}; ///< from one cell to the next one, what a normal's product with their points changes by
-    double base = 0;    ///< of the first cell of the brick, less how far along the normal something reaches
+    glm::dvec3 along{}; ///< change of a normal's product with points from one cell to the next
+    double base = 0;    ///< of the first cell of the brick, less the reach along the normal
     double inverse = 0; ///< Direction::inverse() of the normal
     double least = 0;   ///< mm: none is nearer
     double cut = 0;     ///< mm: pruned from this distance on

@@ -46,7 +46,7 @@ struct PieceBounds {
     double to = 0;        ///< or infinity
     double size = 0;      ///< the sum of the slope's magnitudes
 
-    /// The least dot product with `normal` that an opaque point of the box may have.
+    /// Returns the minimum dot product of an opaque point of the box with `normal`.
     [[nodiscard]] double least(const VolumeSpace& space, const glm::dvec3& normal) const noexcept;
 };
 

@@ -21,7 +21,7 @@ struct WalkJob {
 /// End points of walks.
 struct alignas(kRowAlignment) WalkRows {
     std::array<PieceRows::Row, 3> at{}; ///< the cells' coordinates from -1 to 1
-    PieceRows::Row distance{};          ///< mm from where they began; infinite where nothing is certainly opaque
+    PieceRows::Row distance{};          ///< mm from their start; infinite if nothing is certainly opaque
 };
 
 /// goToOpaque() in many cells at once, each from the point of its piece that is closest to `from` and within its piece.

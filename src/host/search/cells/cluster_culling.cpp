@@ -84,7 +84,7 @@ HWY_INLINE DoubleV boundAlong(const CullingJob& job, const TriangleV& triangle,
     return lo;
 }
 
-/// `better()` where a bound does not close already: what becomes of a triangle must not depend on its neighbours in a
+/// Calls `better()` only if a bound does not prune yet: the result of a triangle must not depend on its neighbours in a
 /// vector.
 template <class Better>
 HWY_INLINE DoubleV unlessClosed(const CullingJob& job, DoubleV lo, DoubleM open, const Better& better) {

@@ -14,7 +14,7 @@
 
 namespace voxtact::cpu {
 
-/// A direction, and the least dot product of an opaque point of something with it.
+/// A direction, and the minimum dot product of an opaque point with it.
 struct LeastAlong {
     LeastAlong(const Direction& along, double leastOfIt)
         : normal(along.normal()), least(leastOfIt), inverse(along.inverse()) {}

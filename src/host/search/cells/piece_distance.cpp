@@ -21,7 +21,7 @@ struct PlacedValue {
     double value = 0;
 };
 
-/// The corners of a piece with the least and the greatest value.
+/// The corners of a piece with the minimum and maximum value.
 std::array<PlacedValue, 2> extremes(const PartCell& cell, const CellPiece& piece) {
     std::array<PlacedValue, 2> ends{PlacedValue{{}, kInfinity}, PlacedValue{{}, -kInfinity}};
     for (unsigned i = 0; i < 8; ++i) {
@@ -82,7 +82,7 @@ CellPiece pieceAt(const PartCell& cell, const PiecePlace& place) noexcept {
     return {cell.terms, cell.error, cell.middle, middle, scale * cell.half};
 }
 
-/// Goes from the triangle to the opaque part and back, each time to about the closest point.
+/// Alternates between triangle and opaque part, each time to about the closest point.
 dvec3 PieceDistance::run(const PiecePlace& place, const DistanceError& error, std::uint32_t number,
                          Found& found) const {
     constexpr int kMostTurns = 4;

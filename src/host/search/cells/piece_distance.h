@@ -31,7 +31,7 @@ struct PieceAlong {
 /// Distance of one triangle from one piece, which gives the search a direction and possibly a nearer point.
 class PieceDistance {
   public:
-    /// `worthwhile`: mm; what brings less is not followed. `triangle` is the mesh's. All must live as long as it.
+    /// `worthwhile`: minimum gain in mm. `triangle` is the mesh's. All must outlive it.
     PieceDistance(const OpaquePart& part, const SearchedPart& searched, const PartCell& cell, const CellPiece& piece,
                   const MeshPlace& mesh, const PlacedTriangle& triangle, double worthwhile)
         : part_(part), searched_(searched), cell_(cell), piece_(piece), mesh_(mesh), triangle_(triangle),

@@ -11,7 +11,7 @@
 
 namespace voxtact::cpu {
 
-/// Some pieces of cells, row by row, for vectors: what CellPiece is of one.
+/// Pieces of cells, row by row, for vectors: the vector form of CellPiece.
 struct alignas(kRowAlignment) PieceRows {
     static constexpr std::size_t kMost = 64;
     using Row = std::array<double, kMost>;
@@ -28,7 +28,7 @@ struct alignas(kRowAlignment) PieceRows {
     Row apart{};           ///< mm
     std::size_t count = 0; ///< of the pieces
 
-    /// Adds a piece of a cell. Expects fewer than the most.
+    /// Adds a piece of a cell. Expects a free row.
     void add(const PartCell& cell, const PiecePlace& place) noexcept;
     /// Sets the position of a piece, in its cell's coordinates.
     void setPiece(std::size_t number, const glm::dvec3& pieceMiddle, const glm::dvec3& pieceHalf) noexcept {
@@ -49,8 +49,8 @@ struct PieceJob {
     double error = 0; ///< DistanceError::absolute
 };
 
-/// The terms and their errors, of whole cells that have the stored values at their corners for terms. The same on every
-/// processor, as what follows.
+/// Computes the terms of whole cells and their errors, from the stored values at the corners. The same on every
+/// processor, like the functions below.
 void makeTerms(PieceRows& rows);
 /// Sets `lo` and `hi`.
 void findRanges(PieceRows& rows);

@@ -16,7 +16,7 @@ namespace {
 using glm::dot;
 using glm::dvec3;
 
-/// The least dot product of `along` with a point of a box.
+/// Returns the minimum dot product of `along` with a point of a box.
 double leastInBox(const dvec3& along, const dvec3& lo, const dvec3& hi) {
     return 0.5 * (dot(along, lo + hi) - dot(glm::abs(along), hi - lo));
 }

@@ -28,8 +28,7 @@ struct OpaqueBox {
     [[nodiscard]] glm::dvec3 middle() const noexcept { return 0.5 * (lo + hi); }
 };
 
-/// The boxes of a volume that a search goes through, and how far what may be opaque in them is from something.
-/// One thread's.
+/// The boxes of a volume in a search, with lower bounds of the distance of their opaque points. For one thread.
 class VolumeBoxes {
   public:
     /// `searched`: the searched region; `error`: of the distances. All must live until the next call.
@@ -45,7 +44,7 @@ class VolumeBoxes {
         return whole(cube, box) && (cube.shift > kBrickShift || narrow(cube, box));
     }
 
-    /// The least dot product of an opaque point with a normal.
+    /// Returns the minimum dot product of an opaque point with a normal.
     [[nodiscard]] double least(const OpaqueBox& box, const glm::dvec3& normal) const;
     /// Returns the distance from a box of centred voxel coordinates.
     [[nodiscard]] double gap(const OpaqueBox& box, const glm::dvec3& lo, const glm::dvec3& hi) const {

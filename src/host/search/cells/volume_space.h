@@ -20,15 +20,15 @@ class VolumeSpace {
 
     glm::dmat3 local_from_voxel{1};
     glm::dmat3 voxel_from_local{1};
-    /// The inverse of the metric: what makes a direction out of a gradient by voxel coordinates.
+    /// The inverse of the metric: turns a gradient by voxel coordinates into a direction.
     glm::dmat3 direction_from_gradient{1};
     glm::dvec3 middle{};  ///< world, of the volume
     glm::dvec3 centre{};  ///< (n-1)/2
     glm::dvec3 reach{};   ///< half the domain, in voxels
-    glm::dvec3 spacing{}; ///< times what the grid's directions shrink at most: a step of w voxels is no shorter than
-                          ///< the length of spacing * w
+    glm::dvec3 spacing{}; ///< times the maximum shrinkage of the grid's directions: a step of w voxels is at least as
+                          ///< long as spacing * w
     double magnitude = 0; ///< mm: upper bound of the volume's coordinates and their terms
-    double condition = 1; ///< by so much rounding grows where voxel_from_local is used
+    double condition = 1; ///< growth of rounding by voxel_from_local
 };
 
 } // namespace voxtact::cpu

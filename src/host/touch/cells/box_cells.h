@@ -12,8 +12,8 @@
 
 namespace voxtact::cpu {
 
-/// The cells that the triangles in boxes of object space may pass through: those of certifiedBoxBounds(), and some
-/// more, where what a box of a mesh has in common with all others is done once.
+/// The cells that the triangles in boxes of object space may cross: those of certifiedBoxBounds() and some more, with
+/// the common work of a mesh's boxes done once.
 class BoxCells {
   public:
     /// `pair` must outlive it.

@@ -12,7 +12,7 @@ namespace voxtact::cpu {
 /// eight lookups. A snapshot of the volume. Thread-safety: const functions are safe from any thread.
 class BrickOccupancy {
   public:
-    /// `tolerance`, in stored units, is what the filter may be off by in addition to its weights: kEightBitFilterError.
+    /// `tolerance`: error of the filter in stored units, in addition to its weights: kEightBitFilterError.
     BrickOccupancy(const Volume& volume, const TransferFunction& function, double threshold, double tolerance = 0);
 
     /// False only where no sample of a closed box within [0,1]^3 is opaque.

@@ -28,9 +28,9 @@ class CellCounter {
 
     /// Begins another triangle, which must outlive its queries.
     void begin(const shader::CertifiedTriangle& triangle) noexcept;
-    /// Returns how many fragments are certain. Calls `open(cell, passes)` for those cells of the volume that are still
-    /// to be decided; `passes`: the triangle certainly does through the cell (TriangleCells::Overlap). Expects a
-    /// triangle that TriangleCells may be asked of.
+    /// Returns the number of certain fragments. Calls `open(cell, passes)` for cells of the volume that stay open;
+    /// `passes`: the triangle certainly does through the cell (TriangleCells::Overlap). Expects a triangle that
+    /// TriangleCells may be asked of.
     template <class Open> [[nodiscard]] unsigned count(const Part& part, const Open& open) {
         constexpr auto kSide = static_cast<std::int32_t>(TriangleCells::kSide);
         unsigned certain = 0;

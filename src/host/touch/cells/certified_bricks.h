@@ -41,7 +41,7 @@ struct BrickCells {
     /// The bits of a slice: row y from bit 8 * y on.
     [[nodiscard]] std::uint64_t slice(std::int32_t z) const noexcept;
 };
-/// Some values, each made when it is first asked for. Thread-safe.
+/// Values, each computed at first use. Thread-safe.
 template <class Value> class MadeOnce {
   public:
     MadeOnce() = default;
@@ -72,12 +72,11 @@ template <class Value> class MadeOnce {
     std::unique_ptr<std::mutex> mutex_;
 };
 
-/// The cells of the bricks that may have an opaque point, each brick's made when it is first asked for.
-/// Thread-safe.
+/// The cells of the bricks that may have an opaque point, computed per brick at first use. Thread-safe.
 class CertifiedBricks {
   public:
     CertifiedBricks() = default;
-    /// `mixed` is not zero for the bricks that may be asked for.
+    /// `mixed` is not zero for the queried bricks.
     explicit CertifiedBricks(std::span<const std::uint8_t> mixed);
 
     /// Returns the cells of a brick, given by index and position; volume, item and opaque values must be the same in

@@ -5,7 +5,7 @@
 namespace voxtact::cpu {
 
 namespace {
-/// A larger box is likely to have a cell that may be opaque, and long to look through.
+/// A larger box probably contains a cell that may be opaque, and takes long to test.
 constexpr std::uint32_t kMostBricks = 27;
 } // namespace
 

@@ -11,8 +11,8 @@
 
 namespace voxtact::cpu {
 
-/// One volume under one transfer function, threshold and resolution, as the projection `certified` sees it: what the
-/// bricks hold of the real interpolant, not of the exact arithmetic's samples.
+/// One volume under one transfer function, threshold and resolution, for the projection `certified`: bricks bound the
+/// real interpolant, not the samples of the exact arithmetic.
 class CertifiedOccupancy {
   public:
     CertifiedOccupancy(const VolumeImpl& volume, const TransferFunctionImpl& function, double threshold,

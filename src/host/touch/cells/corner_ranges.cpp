@@ -140,7 +140,7 @@ void loadCorners(const StoredImage& image, const Kept* voxels, const std::array<
     std::array<std::int64_t, 3> last{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         first[axis] = std::int64_t{place[axis]} << kBrickShift;
-        // Cells beyond the last are no cells: whatever stands there is not examined.
+        // Entries beyond the last cell are not used.
         last[axis] = std::int64_t{image.size[axis]} + 1;
     }
     const std::int64_t inside = std::min(kCorners, last[0] + 1 - first[0]);

@@ -48,7 +48,7 @@ HWY_INLINE Corners cornersOf(const FineRun::Triangles& lanes, std::size_t i) {
         auto& at = corners.at[axis];
         for (std::size_t corner = 0; corner < 3; ++corner) {
             at[corner] = hn::LoadU(d, lanes.at[corner][axis].data() + i);
-            farthest = hn::Add(farthest, hn::Abs(at[corner])); // not a number where one is none
+            farthest = hn::Add(farthest, hn::Abs(at[corner])); // NaN if one is NaN
         }
         corners.lo[axis] = leastOf(at);
         corners.hi[axis] = greatestOf(at);

@@ -10,8 +10,8 @@
 
 namespace voxtact::cpu {
 
-/// The triangles of a run, of which all are examined together that have no more cells than a CellBlock, as most of a
-/// fine mesh have. One thread's.
+/// The triangles of a run. All with at most the cells of a CellBlock, like most triangles of a fine mesh, are tested
+/// together. For one thread.
 class FineRun {
   public:
     static constexpr std::size_t kMost = kRunTriangles;

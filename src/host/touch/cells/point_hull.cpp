@@ -74,7 +74,7 @@ Part partOf(const PointHull& hull, const VoxelPoint& origin, const shader::Certi
     return part;
 }
 
-/// The least and the greatest dot product of a point with (x, y, z).
+/// Minimum and maximum dot product of a point with (x, y, z).
 Range along(const PointHull& hull, double x, double y, double z) noexcept {
     // Several chains of comparisons, without dependencies between them. All skip NaN.
     constexpr std::size_t kChains = 4;
@@ -124,7 +124,7 @@ bool partMayMeetLinearly(const shader::OpaqueValues& opaque, const PointHull& hu
     const double least = std::max(from + dots.lo - displaced - linear.rest, double{cell.least});
     const double greatest = std::min(from + dots.hi + displaced + linear.rest, double{cell.greatest});
     if (!(least <= greatest)) {
-        return true; // not a number, or the hull is beside the cell: others tell
+        return true; // NaN, or the hull is outside the cell: other tests decide
     }
     // The part of the range that is added is far more than what certifiedDecide() leaves open at its resolution.
     constexpr float kPart = 1.0F / 64;

@@ -13,7 +13,7 @@ namespace voxtact::cpu {
 /// is 1/2 long. An edge that is nearly parallel to an axis of the cells has a shorter one with it, or none: it
 /// separates nothing that its neighbours do not.
 struct TriangleAxes {
-    static constexpr std::size_t kCount = 16; ///< some are nothing, to make them as many
+    static constexpr std::size_t kCount = 16; ///< zero for padding
     static constexpr std::size_t kNormal = 0; ///< is the triangle's
     static constexpr std::size_t kUsed = 13;
     using Numbers = std::array<float, kCount>;
@@ -21,7 +21,7 @@ struct TriangleAxes {
     Numbers x{};
     Numbers y{};
     Numbers z{};
-    Numbers lo{}; ///< the triangle's shadow, and half of a cell's on either side
+    Numbers lo{}; ///< the triangle's projection, enlarged by half of a cell's on either side
     Numbers hi{};
     float margin = 0; ///< voxels: by how much a cell is made smaller and larger on each side
     float slack = 0;  ///< voxels along the triangle's normal, which rounding may have turned
@@ -49,7 +49,7 @@ class TriangleCells {
     [[nodiscard]] static bool mayBeAsked(const shader::CertifiedTriangle& triangle) noexcept {
         return shader::certifiedOverlapMayBeAsked(triangle);
     }
-    /// Expects one that may be asked.
+    /// Expects a supported triangle.
     explicit TriangleCells(const shader::CertifiedTriangle& triangle) noexcept;
 
     /// Tests some cells of the cube from `first` on. Expects cells that the triangle's box meets, or at most two cubes

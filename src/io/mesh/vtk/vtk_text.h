@@ -28,14 +28,14 @@ class VtkText {
   private:
     std::string_view content_;
     std::size_t at_ = 0;
-    std::size_t last_ = 0; ///< where the last word or line begins
+    std::size_t last_ = 0; ///< begin of the last word or line
 };
 
 /// The type of an array in a legacy file; none if it is no number, or of a size that depends on the machine.
 [[nodiscard]] std::optional<StoredType> vtkType(std::string_view name);
 
-/// Passes over one array of a FIELD section, or over a METADATA section; false if the file is truncated or damaged.
-/// `value` becomes the first text of an array of texts.
+/// Skips one array of a FIELD section, or over a METADATA section; false if the file is truncated or damaged. `value`
+/// becomes the first text of an array of texts.
 [[nodiscard]] bool skipVtkFieldArray(VtkText& text, bool isBinary, std::string_view& name, std::string_view& value);
 [[nodiscard]] bool skipVtkMetadata(VtkText& text);
 

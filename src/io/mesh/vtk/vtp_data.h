@@ -23,7 +23,7 @@ struct VtpRefusal {
 /// The arrays of VTK's XML files: in text, in base64 or appended, plain or compressed by zlib.
 class VtpData {
   public:
-    /// `root`: VTKFile. `appended`: what follows the underscore of AppendedData, in base64 if `isBase64`.
+    /// `root`: VTKFile. `appended`: the data after the underscore of AppendedData, in base64 if `isBase64`.
     VtpData(pugi::xml_node root, std::string_view appended, bool isBase64);
 
     [[nodiscard]] std::vector<double> reals(pugi::xml_node array) const;

@@ -18,10 +18,10 @@ namespace voxtact::view {
 [[nodiscard]] std::string copyAsCommand(const Document& document, const MethodChoice& method,
                                         const std::string& device);
 
-/// A text as one word of a shell.
+/// Quotes a text as one word of a shell.
 [[nodiscard]] std::string shellWord(const std::string& text);
 
-/// Sixteen numbers, row by row, as pose files have them; they read back as the same.
+/// Returns sixteen numbers, row by row, like pose files; they read back unchanged.
 [[nodiscard]] std::string poseText(const Mat4& world_from_object);
 
 } // namespace voxtact::view

@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-/// The counts of all methods side by side: every way to answer is asked the same question, one after the other.
+/// The counts of all methods side by side: every method is asked the same question, one after the other.
 namespace voxtact::view {
 
 struct ComparedMethod {
     MethodChoice method;
-    std::optional<LiveAnswer> answer; ///< nothing: not yet, or refused
-    std::string refused;              ///< why it cannot answer; empty: it can, or is not asked yet
+    std::optional<LiveAnswer> answer; ///< empty: pending or refused
+    std::string refused;              ///< reason of a refusal; empty: none, or pending
 };
 
 class Comparison {
@@ -28,16 +28,16 @@ class Comparison {
     /// Returns the next question, whose answer goes to take(); empty while an answer is pending, and after the last
     /// one.
     [[nodiscard]] std::optional<LiveQuestion> next();
-    /// The answer to what next() gave last. One that was cancelled is asked for again.
+    /// Takes the answer to the last question of next(). A cancelled question is asked again.
     void take(Result<LiveAnswer> answer);
 
-    /// In the order of begin(). Those of the previous edit until new ones exist.
+    /// Returns the answers in the order of begin(); those of the previous edit until new ones exist.
     [[nodiscard]] const std::vector<ComparedMethod>& methods() const { return methods_; }
     /// Number of methods that have answered or failed.
     [[nodiscard]] std::size_t answered() const { return answered_; }
-    /// No question is left or pending.
+    /// Returns true if no question is left or pending.
     [[nodiscard]] bool complete() const { return !waiting_ && answered_ == methods_.size(); }
-    /// One more with each begin().
+    /// Returns the number of calls of begin().
     [[nodiscard]] std::uint64_t serial() const { return serial_; }
 
   private:
@@ -45,7 +45,7 @@ class Comparison {
     std::vector<ComparedMethod> methods_;
     std::size_t answered_ = 0;  ///< the first methods have answered
     std::uint64_t serial_ = 0;  ///< the revision of its questions
-    std::uint64_t waiting_ = 0; ///< of the question whose answer is waited for; 0: none
+    std::uint64_t waiting_ = 0; ///< of the pending question; 0: none
 };
 
 } // namespace voxtact::view

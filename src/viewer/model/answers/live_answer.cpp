@@ -17,7 +17,7 @@ std::string counted(unsigned long long count, const std::string& one) {
     return std::to_string(count) + ' ' + one + (count == 1 ? "" : "s");
 }
 
-/// Number of contacts of a pair, of which the batch lists `listed`.
+/// Returns the number of contacts of a pair; the batch lists `listed` of them.
 std::uint64_t contactsOf(const BatchAnswer& batch, const PairAnswer& pair, std::size_t listed) {
     if (batch.pairs.size() == 1) {
         return batch.contactsFound;
@@ -116,7 +116,7 @@ double Times::percentile(double share) const {
 
 void Strip::add(double when, int hit, double milliseconds) {
     entries_.push_back({when, hit, milliseconds});
-    // The first is in sight until the second comes.
+    // The first is shown until the second.
     while (entries_.size() > 1 && entries_[1].when <= when - kSeconds) {
         entries_.pop_front();
     }

@@ -13,7 +13,7 @@
 /// Answers of the window about its pairs: each mesh and the volume.
 namespace voxtact::view {
 
-/// Contacts that are shown and listed, at most.
+/// Maximum contacts in picture and list.
 inline constexpr std::size_t kShownContacts = 2000;
 
 /// Camera of projections that use one, as in `voxtact count`.
@@ -30,10 +30,10 @@ struct LiveQuestion {
 struct MeshAnswer {
     Instrument instrument; ///< that was asked about
     PairAnswer pair;
-    std::vector<std::uint32_t> triangles; ///< with survivors, by their numbers
+    std::vector<std::uint32_t> triangles; ///< numbers of those with passing fragments
     std::vector<Contact> contacts;        ///< the deepest first, at most kShownContacts
-    std::uint64_t contactsFound = 0;      ///< of a list of the batch that was cut: the pair's count
-    std::vector<LabelCount> labels;       ///< that are touched, those with the most survivors first
+    std::uint64_t contactsFound = 0;      ///< of a truncated list of the batch: the pair's count
+    std::vector<LabelCount> labels;       ///< touched labels, largest count first
 };
 
 struct LiveAnswer {
@@ -75,9 +75,9 @@ class Times {
 /// Answers of the last seconds: an answer is visible until the next one.
 class Strip {
   public:
-    static constexpr double kSeconds = 10; ///< that it goes back
+    static constexpr double kSeconds = 10; ///< seconds before now
 
-    /// An answer came into sight. `when`: seconds of some clock, never less than before. `hit`: as hitNumber().
+    /// Records a displayed answer. `when`: seconds of a clock, not decreasing. `hit`: like hitNumber().
     void add(double when, int hit, double milliseconds);
 
     struct Piece {

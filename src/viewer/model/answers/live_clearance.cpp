@@ -46,24 +46,24 @@ std::string upperText(double mm) {
     return written(upperRounded(mm, std::pow(10, decimals)), decimals);
 }
 
-std::string clearanceText(const MeshClearance& clearance) {
-    const auto& [lo, hi] = clearance.pair.bounds;
+std::string clearanceText(const MeshClearance& measured) {
+    const auto& [lo, hi] = measured.pair.bounds;
     if (std::isinf(lo)) {
         return "nothing is opaque";
     }
     if (hi == 0) {
-        const Bounds area = clearance.area ? clearance.area->bounds : Bounds();
+        const Bounds area = measured.area ? measured.area->bounds : Bounds();
         const bool isKnown = area.upper > 0 && area.upper < kInfinity;
         return (isKnown ? lowerText(area.lower) + " to " + upperText(area.upper) + " mm\u00b2 touch" : "touches");
     }
     return (std::isinf(hi) ? "at least " + lowerText(lo) : lowerText(lo) + " to " + upperText(hi)) + " mm away";
 }
 
-std::optional<std::array<Vec3, 2>> closestSegment(const PairDistance& clearance) noexcept {
-    if (!clearance.closest || clearance.bounds.upper == 0) {
+std::optional<std::array<Vec3, 2>> closestSegment(const PairDistance& pair) noexcept {
+    if (!pair.closest || pair.bounds.upper == 0) {
         return std::nullopt;
     }
-    return std::array{clearance.closest->mesh, clearance.closest->volume};
+    return std::array{pair.closest->mesh, pair.closest->volume};
 }
 
 double distanceOfPlane(const std::array<Vec3, 2>& segment, std::size_t axis, double at) noexcept {

@@ -16,7 +16,7 @@ namespace voxtact::view {
 struct MeshClearance {
     std::size_t mesh = 0; ///< its number in Sources::meshes
     PairDistance pair;
-    std::optional<PairArea> area; ///< measured after the clearance
+    std::optional<PairArea> area; ///< measured after the distance
 };
 
 struct LiveClearance {
@@ -35,12 +35,13 @@ struct LiveClearance {
 [[nodiscard]] std::string upperText(double mm);
 
 /// "12.34 to 12.35 mm away", "touches", "820.05 to 820.15 mm² touch", "nothing is opaque".
-[[nodiscard]] std::string clearanceText(const MeshClearance& clearance);
+[[nodiscard]] std::string clearanceText(const MeshClearance& measured);
 
 /// The two closest points, on the mesh and in the opaque region; empty if it touches, or nothing is opaque.
-[[nodiscard]] std::optional<std::array<Vec3, 2>> closestSegment(const PairDistance& clearance) noexcept;
+[[nodiscard]] std::optional<std::array<Vec3, 2>> closestSegment(const PairDistance& pair) noexcept;
 
-/// mm from a plane at right angles to an axis of the world to the nearer end of a segment; 0 where it goes through.
+/// Returns the distance in mm from a plane perpendicular to a world axis to the nearer end of a segment; 0 if it
+/// crosses the plane.
 [[nodiscard]] double distanceOfPlane(const std::array<Vec3, 2>& segment, std::size_t axis, double at) noexcept;
 
 } // namespace voxtact::view

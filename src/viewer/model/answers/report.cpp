@@ -11,12 +11,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// JSON has no infinity: it is a word there.
+/// JSON has no infinity, so it is a string.
 Json orInfinite(double value) {
     return std::isinf(value) ? Json("inf") : Json(value);
 }
 
-/// Null where it is of another question than the answer, or not of that mesh.
+/// Returns null if it belongs to another question or mesh.
 const MeshClearance* measuredOf(const StateReport& report, std::size_t mesh) {
     const LiveClearance* live = report.clearance;
     return live != nullptr && live->revision == report.answer->revision ? live->of(mesh) : nullptr;
@@ -33,7 +33,7 @@ Json areaJson(const StateReport& report, std::size_t mesh) {
 }
 
 /// Null until it is measured.
-Json clearanceJson(const StateReport& report, std::size_t mesh) {
+Json distanceJson(const StateReport& report, std::size_t mesh) {
     const MeshClearance* measured = measuredOf(report, mesh);
     if (measured == nullptr) {
         return nullptr;
@@ -71,21 +71,21 @@ void addMesh(Json& json, const StateReport& report, const MeshAnswer& answer) {
     }
     json["triangles"] = answer.triangles.size();
     json["contacts"] = answer.contactsFound;
-    json["clearance"] = clearanceJson(report, answer.instrument.mesh);
+    json["clearance"] = distanceJson(report, answer.instrument.mesh);
     json["area"] = areaJson(report, answer.instrument.mesh);
     if (report.labels != nullptr) {
         json["labels"] = labelsJson(*report.labels, answer);
     }
 }
 
-/// All instruments, as they are now; with what only an answer has, where there is one.
+/// Writes all instruments in their current state, and the members of an answer, if any.
 Json meshesJson(const StateReport& report) {
     Json out = Json::array();
     const Document& document = *report.document;
     for (std::size_t i = 0; i < document.edit.instruments.size(); ++i) {
         const Instrument& instrument = document.edit.instruments[i];
         if (instrument.mesh >= document.sources.meshes.size()) {
-            continue; // there is nothing to show yet
+            continue; // empty document
         }
         Json json{
             {"mesh", document.sources.meshes[instrument.mesh].path}, {"shown", instrument.shown}, {"touch", nullptr}};

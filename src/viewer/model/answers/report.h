@@ -24,18 +24,18 @@ struct StateReport {
     const LiveClearance* clearance = nullptr; ///< null where there is none yet
     const Labels* labels = nullptr;           ///< null where there is no label map
     std::array<double, 4> picture{};          ///< where it is in the window: corner and size, points
-    ViewDirection direction;                  ///< from where the picture is seen
+    ViewDirection direction;                  ///< direction of the view
     std::optional<ViewCube> cube;             ///< in the picture; null: it is too small for it
     std::array<double, 4> chart{};            ///< where the curve's chart is, the same
     ValueRange chartRange;                    ///< the values that it shows
     std::string device;                       ///< that answered; "host" for cpu
-    std::string error;                        ///< of the dialog that is open; empty: none
-    const Question* question = nullptr;       ///< the dialog with a choice that is open; null: none
-    std::optional<std::string> field;         ///< what stands in the field for a path that has the keyboard; null: none
+    std::string error;                        ///< text of the open dialog; empty: none
+    const Question* question = nullptr;       ///< open dialog with a choice; null: none
+    std::optional<std::string> field;         ///< text of the focused path field; null: none
     const Loading* loading = nullptr;         ///< null: nothing is being loaded
-    const Loading* loaded = nullptr;          ///< how that went which was loaded last; null: not known yet
+    const Loading* loaded = nullptr;          ///< statistics of the last loading; null: not known yet
     const Comparison* comparison = nullptr;   ///< of the methods; null where it is not shown
-    std::optional<double> saving;             ///< how much of a picture for a file is drawn, or written
+    std::optional<double> saving;             ///< progress of a picture for a file
     std::vector<std::string> notes;           ///< notes on the contents
     std::string status;                       ///< last action
     std::uint64_t frame = 0;                  ///< frames shown until then

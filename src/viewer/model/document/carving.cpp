@@ -12,8 +12,7 @@ namespace voxtact::view {
 
 namespace {
 
-/// Calls `use` with the byte where each row of a box begins in the grid, the one where it begins in the box, and the
-/// row's bytes.
+/// Calls `use` for each row of a box, with its byte offsets in the grid and in the box, and its bytes.
 template <class Use> void eachRow(const Grid& grid, const VoxelBox& box, std::size_t voxelBytes, Use&& use) {
     const std::size_t bytes = box.size[0] * voxelBytes;
     std::size_t inBox = 0;

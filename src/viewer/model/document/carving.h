@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-/// Holes that are drilled into the volume, and filled again by undo.
+/// Holes drilled into the volume; undo fills them.
 namespace voxtact::view {
 
-/// A hole: what the voxels of its box were, and what they are with it. Scalars of the volume's type, as in VolumeView.
+/// A hole: the voxels of its box before and after drilling. Scalars of the volume's type, like in VolumeView.
 struct Hole {
     VoxelBox box;
     std::vector<std::byte> before;
@@ -33,32 +33,33 @@ struct HoleWrite {
 class HoleWrites {
   public:
     void add(HoleWrite write) { kept_.push_back(std::move(write)); }
-    /// The number of the next one.
+    /// Returns the number of the next change.
     [[nodiscard]] std::uint64_t end() const { return first_ + kept_.size(); }
     /// Returns the changes from this number on, none of which may be dropped. Valid until the next change.
     [[nodiscard]] std::span<const HoleWrite> from(std::uint64_t number) const;
-    /// The owner of a copy has done all before this number.
+    /// The owner of a copy has applied all changes before this number.
     void forget(std::uint64_t before);
     /// Returns the number of kept changes.
     [[nodiscard]] std::size_t kept() const { return kept_.size(); }
 
   private:
     std::vector<HoleWrite> kept_;
-    std::uint64_t first_ = 0; ///< the number of the first that is kept
+    std::uint64_t first_ = 0; ///< number of the first kept change
 };
 
-/// Voxels of a hole's box, at most.
+/// Maximum voxels of a hole's box.
 inline constexpr std::uint64_t kMostHoleVoxels = std::uint64_t{1} << 24U;
 
-/// The voxels of a ball get one value, in the image's units. With an empty box where the ball has no voxel. Refuses a
-/// ball that voxelBounds() refuses, more than kMostHoleVoxels (LimitExceeded), and a value that no voxel can have.
+/// Returns a hole that sets the voxels of a ball to a value, in the image's units; its box is empty if the ball has no
+/// voxel. Refuses a ball that voxelBounds() refuses, more than kMostHoleVoxels (LimitExceeded), and a value that no
+/// voxel can have.
 [[nodiscard]] Result<Hole> holeOf(const VolumeView& volume, const Ball& ball, double value);
 
 /// Holes in the order of drilling; the first `count` of them exist.
 class Holes {
   public:
     [[nodiscard]] std::size_t drilled() const { return drilled_; }
-    /// One more into the volume as it is; those that were filled again are forgotten.
+    /// Drills another hole; forgets the filled ones.
     void add(Hole hole);
     /// Drills and fills until this number of holes exists, at most the known ones. Returns the changes, in order.
     [[nodiscard]] std::vector<HoleWrite> bring(VolumeData& volume, std::size_t number);

@@ -15,16 +15,16 @@ using Curve = std::vector<ControlPoint>;
 [[nodiscard]] bool sameCurve(const Curve& a, const Curve& b) noexcept;
 [[nodiscard]] bool sameColours(const std::vector<ColourPoint>& a, const std::vector<ColourPoint>& b) noexcept;
 
-/// Opacity of a value: linear between the points, constant outside. At a step that of its right side.
+/// Returns the opacity of a value: linear between the points, constant outside; at a step, that of its right side.
 [[nodiscard]] double opacityAt(const Curve& curve, double value) noexcept;
 
-/// Adds a point where its value belongs, and returns its number. The opacity is brought into 0..1.
+/// Inserts a point by value, and returns its number. Clamps the opacity to 0..1.
 std::size_t addPoint(Curve& curve, const ControlPoint& point);
 
 /// Moves a point, between its neighbours' values and within the domain, and keeps its number.
 void movePoint(Curve& curve, std::size_t number, const ControlPoint& to, const ValueRange& domain) noexcept;
 
-/// False, and nothing is removed, where it is the last one.
+/// Removes a point; returns false for the last one, which stays.
 bool removePoint(Curve& curve, std::size_t number);
 
 /// Rounds to the precision of a pointer: thousandths of the domain and of the opacity, in decimal steps.

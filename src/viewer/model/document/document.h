@@ -10,30 +10,30 @@
 #include <string>
 #include <vector>
 
-/// All that the window shows, as plain data: what a session file holds.
+/// Contents of the window as plain data, as in a session file.
 namespace voxtact::view {
 
 /// Source of a mesh, as on the command line.
 struct MeshSource {
     std::string path;
-    std::string space = "lps"; ///< what its coordinates mean
+    std::string space = "lps"; ///< space of its coordinates
     double scale = 1;          ///< mm of its unit
 };
 
 /// Sources of volume and meshes, as on the command line.
 struct Sources {
     std::string volume;
-    std::vector<MeshSource> meshes; ///< all that were opened; those that were removed too, so that undo has them
+    std::vector<MeshSource> meshes; ///< all opened meshes, including removed ones, for undo
     std::string labels;             ///< a label map; empty: none
-    std::string labelNames;         ///< what its labels are called; empty: the file beside it, where it is there
+    std::string labelNames;         ///< file of label names; empty: the file next to the label map, if it exists
     std::uint32_t coarser = 1;      ///< each voxel of the shown volume covers this number along each axis
 };
 
-/// A mesh that is there, and where.
+/// A mesh and its pose.
 struct Instrument {
-    std::size_t mesh = 0; ///< its number in Sources::meshes; no two have the same
+    std::size_t mesh = 0; ///< number in Sources::meshes, unique
     Mat4 world_from_object = identity();
-    bool shown = true; ///< in picture and slices; it is answered for in any case
+    bool shown = true; ///< visible in picture and slices; always answered
 
     [[nodiscard]] bool operator==(const Instrument&) const = default;
 };
@@ -94,11 +94,11 @@ struct Document {
     ValueRange domain{0, 255};
     std::uint32_t tableSize = kDefaultTableSize;
     std::vector<Mat4> poses;            ///< the list; may be empty
-    std::size_t pose = 0;               ///< the one of the list that was taken last
-    std::optional<MethodChoice> method; ///< nothing: what the machine is best at
+    std::size_t pose = 0;               ///< pose of the list that was taken last
+    std::optional<MethodChoice> method; ///< empty: the machine's default
     std::optional<Camera> camera;       ///< nothing: framing the volume
     std::optional<Shown> shown;         ///< empty: the window's defaults
-    std::vector<Ball> holes;            ///< in the order in which they were drilled, at least edit.holes
+    std::vector<Ball> holes;            ///< in the order of drilling, at least edit.holes
     std::optional<Vec3> cursor;         ///< world, mm: where the slices are; nothing: the middle of the volume
 };
 

@@ -9,11 +9,11 @@
 
 namespace voxtact::view {
 
-/// Undo and redo of a value: what it was before each command. `Value` needs ==.
+/// Undo and redo of a value: its states before each command. `Value` needs ==.
 template <class Value> class History {
   public:
-    /// A command that made `before` to `now`. Those with one `merge`, where it is not empty, are one command as long
-    /// as nothing else comes between them and end() is not called: the steps of one drag. Nothing where both are equal.
+    /// Adds a command that changed `before` to `now`; ignores equal ones. Consecutive commands with the same `merge`,
+    /// if not empty, are one command until end(): the steps of a drag.
     void add(const Value& before, const Value& now, const std::string& merge) {
         if (before == now) {
             return;
@@ -28,12 +28,12 @@ template <class Value> class History {
             done_.pop_front();
         }
     }
-    /// The next command is one of its own.
+    /// Separates the next command.
     void end() { merge_.clear(); }
 
     [[nodiscard]] bool canUndo() const { return !done_.empty(); }
     [[nodiscard]] bool canRedo() const { return !undone_.empty(); }
-    /// `value` becomes what it was. Nothing where there is nothing to undo.
+    /// Restores the previous `value`, if any.
     void undo(Value& value) { step(done_, undone_, value); }
     void redo(Value& value) { step(undone_, done_, value); }
 

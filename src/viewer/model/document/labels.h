@@ -12,16 +12,16 @@
 /// Names of structures at positions.
 namespace voxtact::view {
 
-/// A label map, and what its labels are called; a label may have no name.
+/// A label map and the names of its labels; a label may have no name.
 struct Labels {
     LabelData map;
     std::map<std::int32_t, std::string> names;
 };
 
-/// The label at a world point; 0 outside of the map.
+/// Returns the label at a world point; 0 outside the map.
 [[nodiscard]] std::int32_t labelOf(const Labels& labels, const Vec3& world) noexcept;
 
-/// The name; empty where it has none.
+/// Returns the name of a label; empty if none.
 [[nodiscard]] std::string nameOf(const Labels& labels, std::int32_t label);
 
 /// "7 skull", or "7" where it has no name.

@@ -37,7 +37,7 @@ Mat4 rotation(const Vec3& axis, double degrees) {
             1};
 }
 
-/// A unit vector at right angles to two; to the first and an axis of the world where both go the same way.
+/// Returns a unit vector perpendicular to two; if both are parallel, to the first and a world axis.
 Vec3 upright(const Vec3& x, const Vec3& y) {
     constexpr double kSame = 1e-9;
     const bool along = std::abs(x[1]) > 0.9;
@@ -104,7 +104,7 @@ Mat4 turnedAbout(const Mat4& world_from_object, const Vec3& axis, double degrees
 }
 
 Vec3 anglesOf(const Mat4& world_from_object) noexcept {
-    // A rotation whatever the pose does to shapes, which turns as the pose is turned.
+    // The rotation of a pose, even with scale and shear; it turns with the pose.
     const Vec3 x = axisOf(world_from_object, 0);
     const Vec3 z = upright(x, axisOf(world_from_object, 1));
     const Vec3 y = cross(z, x);

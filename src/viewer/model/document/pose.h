@@ -9,14 +9,15 @@
 /// Small moves of an instrument. Pure functions; poses are `world_from_object`.
 namespace voxtact::view {
 
-/// Whose axes a move is along.
+/// The axes of a move.
 enum class Axes { World, Own };
 
-/// Moved by `mm` along the world's axes, or along the object's own ones (of unit length, whatever its scale).
+/// Returns the pose moved by `mm` along the world's axes, or along the object's own axes (of unit length for any
+/// scale).
 [[nodiscard]] Mat4 moved(const Mat4& world_from_object, const Vec3& mm, Axes axes) noexcept;
 
-/// Turned by `degrees` about axis 0, 1 or 2, counter-clockwise for who looks against it. The object's origin, which
-/// is the tip of the builtin instruments, stays where it is.
+/// Returns the pose turned by `degrees` about axis 0, 1 or 2, counter-clockwise seen against the axis. The object's
+/// origin, the tip of builtin instruments, stays in place.
 [[nodiscard]] Mat4 turned(const Mat4& world_from_object, std::size_t axis, double degrees, Axes axes) noexcept;
 
 /// Like turned(), about a unit axis in world space.
@@ -32,14 +33,14 @@ inline constexpr double kFarthestPlace = 1e12;
 /// Position of the object's origin, mm.
 [[nodiscard]] Vec3 originOf(const Mat4& world_from_object) noexcept;
 
-/// The object's own axis in the world, of unit length; the world's axis where it has no length.
+/// Returns the object's own axis in the world, of unit length; the world's axis if it has no length.
 [[nodiscard]] Vec3 axisOf(const Mat4& world_from_object, std::size_t axis) noexcept;
 
 /// Rotation of the object in degrees: about x, then y, then z of the world. For shearing poses, that of the x axis, and
 /// of the y axis orthogonalised to it. If x points along the world's z, z is 0.
 [[nodiscard]] Vec3 anglesOf(const Mat4& world_from_object) noexcept;
 
-/// Angles that were typed, and the pose that they made: others would make the same one.
+/// Typed angles and their pose, which other angles would give, too.
 struct TypedAngles {
     Mat4 world_from_object{};
     Vec3 degrees{};

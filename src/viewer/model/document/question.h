@@ -9,7 +9,7 @@
 
 namespace voxtact::view {
 
-/// A dialog in which there is something to choose. Enter takes the first button, Escape the last.
+/// A dialog with a choice. Enter takes the first button, Escape the last.
 struct Question {
     enum class Kind {
         Coarser, ///< the volume is too large: a coarser copy?

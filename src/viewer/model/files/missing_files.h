@@ -9,13 +9,13 @@
 
 namespace voxtact::view {
 
-/// A source of a document that is not where the document says.
+/// A missing source of a document.
 struct MissingFile {
     std::string name; ///< "volume", "mesh" or of several "mesh 1", "label map" or "label names"
-    std::string path; ///< where it should be, or a file of the same name beside the session
+    std::string path; ///< stored path, or a file of the same name next to the session
 };
 
-/// Missing files of a session read from a file, or, with an empty path, from nowhere. Builtins never are.
+/// Returns the missing files of a session; an empty path: of a session without a file. Builtins are never missing.
 [[nodiscard]] std::vector<MissingFile> missingFiles(Sources sources, const std::filesystem::path& session);
 
 /// Returns the sources with other paths for the missing files.

@@ -13,11 +13,11 @@ namespace voxtact::view {
 [[nodiscard]] std::string endingOf(const std::filesystem::path& path);
 
 /// By the ending: STL, OBJ, PLY, OFF, VTK, glTF, STEP and IGES are meshes, .txt are poses, .json is a session where it
-/// says so and else a transfer function. All else is a volume, folders too. Refuses a .json that cannot be read.
+/// says so and else a transfer function. All others, also folders, are volumes. Refuses an unreadable .json.
 [[nodiscard]] Result<FileKind> kindOfFile(const std::filesystem::path& path);
 
-/// Poses and transfer functions are commands that undo takes back. Of a volume, a mesh or a session only the wish is
-/// left in State::wanted; a session is read for it. Nothing changes where there is an error.
+/// Opens a file. Poses and transfer functions are commands that undo reverts. Volumes, meshes and sessions are
+/// requested in State::wanted; a session is read first. Errors change nothing.
 [[nodiscard]] Result<void> openFile(const std::filesystem::path& path, State& state);
 
 /// Opens the files dropped since the last call, one after the other; reports the last error.

@@ -15,16 +15,16 @@ class Progress {
   public:
     struct Now {
         std::string step;            ///< current step: "reading head.nii.gz"; empty before the first one
-        std::optional<double> share; ///< of the step, 0..1; nothing where that is not known
+        std::optional<double> share; ///< share of the step, 0..1; empty if unknown
     };
 
-    /// The worker begins a step. Cancelled where the work is not wanted any more.
+    /// Begins a step. Returns Cancelled if the work was cancelled.
     [[nodiscard]] Result<void> begin(std::string step);
     /// Sets the share of the step, 0..1; returns false if cancelled.
     [[nodiscard]] bool tell(double share);
     [[nodiscard]] Now now() const;
 
-    /// The work ends at the next step, or where it next tells.
+    /// Cancels: the work ends at the next step or report.
     void cancel() { cancelled_ = true; }
     [[nodiscard]] bool cancelled() const { return cancelled_; }
 

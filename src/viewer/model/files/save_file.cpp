@@ -17,7 +17,7 @@ namespace voxtact::view {
 
 namespace {
 
-/// `isOne`: whether a file that is there is of the kind.
+/// `isOne`: tests the kind of an existing file.
 template <class IsOne>
 Result<void> check(const std::filesystem::path& path, const State& state, const char* kind, const IsOne& isOne) {
     VOXTACT_TRY(state.checkOutput(path));

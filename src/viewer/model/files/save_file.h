@@ -16,9 +16,9 @@ namespace voxtact::view {
 [[nodiscard]] Result<void> checkPicture(const std::filesystem::path& path, const State& state);
 
 [[nodiscard]] Result<void> saveSession(const std::filesystem::path& path, const State& state);
-/// The curve and the colours as --transfer-function takes them.
+/// Writes the curve and the colours for --transfer-function.
 [[nodiscard]] Result<void> saveFunction(const std::filesystem::path& path, const State& state);
-/// The chosen instrument's pose, as --poses takes it.
+/// Writes the chosen instrument's pose for --poses.
 [[nodiscard]] Result<void> savePose(const std::filesystem::path& path, const State& state);
 
 } // namespace voxtact::view

@@ -22,14 +22,14 @@ using Json = SessionReader::Json;
 constexpr int kVersion = 1;
 constexpr const char* kMark = "voxtact_session";
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{64} << 20U;
-/// mm; of a camera farther away the matrices cannot be used.
+/// mm: maximum distance of a camera with usable matrices.
 constexpr double kFarthest = 1e12;
 /// Maximum distance relative to the camera's height.
 constexpr double kFarthestInHeights = 1e8;
 /// For larger angles, doubles have no meaningful fractions of a degree.
 constexpr double kMostDegrees = 1e9;
 
-/// Row by row, as pose files have them.
+/// Row by row, like pose files.
 Mat4 readPose(SessionReader& reader, const std::string& name, const Json& json) {
     const std::array<double, 16> rows = reader.numbers<16>(name, json);
     Mat4 pose{};
@@ -138,7 +138,7 @@ void readFunction(SessionReader& reader, Document& document) {
     }
 }
 
-/// The one of a session with one mesh; of one with several that is the chosen one, for programs that know of one.
+/// The single mesh of a session, or the chosen one, for programs that read only one.
 void readInstrument(SessionReader& reader, Document& document) {
     document.sources.meshes = {readMesh(reader, "")};
     if (const Json* json = reader.find("instrument.pose"); json != nullptr) {

@@ -15,13 +15,13 @@ namespace voxtact::view {
 
 /// Returns true if a file is JSON with the mark of a session. Error: unreadable.
 [[nodiscard]] Result<bool> isSession(const std::filesystem::path& path);
-/// Relative paths in it are from its folder on.
+/// Resolves relative paths from the session's folder.
 [[nodiscard]] Result<Document> readSession(const std::filesystem::path& path);
 /// Writes to a temporary name, then renames. Paths in the document are relative to the current folder, those in the
 /// file as in seenFrom().
 [[nodiscard]] Result<void> writeSession(const std::filesystem::path& path, const Document& document);
 
-/// The curve and the colours as --transfer-function takes them.
+/// Writes the curve and the colours for --transfer-function.
 [[nodiscard]] Result<void> writeTransferFunction(const std::filesystem::path& path, const Document& document);
 
 } // namespace voxtact::view

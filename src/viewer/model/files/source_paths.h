@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-/// The paths of the files that a document is about.
+/// Paths of the files of a document.
 namespace voxtact::view {
 
 /// A path in the sources; may be empty or a builtin.
@@ -24,7 +24,7 @@ struct SourceMember {
 /// Returns the paths for a session in `folder`: relative inside the folder, else absolute. A session moved with its
 /// files still finds them, and never finds other files.
 [[nodiscard]] Sources seenFrom(Sources sources, const std::filesystem::path& folder);
-/// The other way round: relative paths are from `folder` on.
+/// The inverse: resolves relative paths from `folder`.
 [[nodiscard]] Sources foundFrom(Sources sources, const std::filesystem::path& folder);
 
 } // namespace voxtact::view

@@ -8,11 +8,10 @@
 /// State that the window keeps between runs.
 namespace voxtact::view {
 
-/// $XDG_STATE_HOME/voxtact, else ~/.local/state/voxtact; empty where neither is known. It need not be there.
+/// Returns $XDG_STATE_HOME/voxtact, else ~/.local/state/voxtact; empty if neither is known. It need not exist.
 [[nodiscard]] std::filesystem::path stateFolder();
 
-/// Files that were opened, the last first, each once. All that can go wrong with the file where they are kept is that
-/// nothing is kept.
+/// Opened files, the last first, each once. Errors of the list's file are ignored.
 class RecentFiles {
   public:
     static constexpr std::size_t kMost = 12;

@@ -8,13 +8,13 @@
 /// Camera of the large picture: orthographic, around a target point.
 namespace voxtact::view {
 
-/// mm; Camera::halfHeight keeps to these.
+/// mm: limits of Camera::halfHeight.
 inline constexpr double kLeastHalfHeight = 0.01;
 inline constexpr double kMostHalfHeight = 1e6;
 
 struct Camera {
     Vec3 target{};           ///< world, mm: in the picture's middle
-    ViewDirection direction; ///< from where the eye looks
+    ViewDirection direction; ///< direction to the eye
     double halfHeight = 100; ///< mm from the picture's middle to its upper edge
 };
 
@@ -34,13 +34,13 @@ void pan(Camera& camera, double right, double down, const Extent& extent) noexce
 /// Zooms by a factor, below 1 nearer; keeps the point at pixel x, y there.
 void zoom(Camera& camera, double factor, double x, double y, const Extent& extent) noexcept;
 
-/// `depth`: mm before and behind the target that are to be seen.
+/// `depth`: visible mm before and behind the target.
 [[nodiscard]] Mat4 clipFromWorld(const Camera& camera, const Extent& extent, double depth) noexcept;
 
 /// Millimetres of a pixel.
 [[nodiscard]] double millimetresOfPixel(const Camera& camera, const Extent& extent) noexcept;
 
-/// A length for a scale bar: 1, 2 or 5 times a power of ten millimetres, the longest that is at most `most` long.
+/// Returns the length of a scale bar: 1, 2 or 5 times a power of ten millimetres, at most `most`.
 [[nodiscard]] double barLength(double most) noexcept;
 
 } // namespace voxtact::view

@@ -6,7 +6,7 @@
 
 #include <array>
 
-/// Handles at the instrument's origin, by which it is moved and turned. Pure functions; world space, mm.
+/// Handles at the instrument's origin that move and turn it. Pure functions; world space, mm.
 namespace voxtact::view {
 
 /// Along `direction`, of unit length, into the picture.
@@ -17,9 +17,9 @@ struct Ray {
 /// Ray of a pixel in the camera's picture.
 [[nodiscard]] Ray rayThrough(const Camera& camera, const Extent& extent, double x, double y) noexcept;
 
-/// Whose axes the handles are along.
+/// The axes of the handles.
 enum class GizmoAxes { World, View, Own };
-/// The one after it; after the last the first.
+/// Returns the next one, cyclically.
 [[nodiscard]] constexpr GizmoAxes nextOf(GizmoAxes axes) noexcept {
     return axes == GizmoAxes::Own ? GizmoAxes::World : static_cast<GizmoAxes>(static_cast<int>(axes) + 1);
 }
@@ -47,13 +47,13 @@ inline constexpr double kSquareBegin = 0.3;
 inline constexpr double kSquareEnd = 0.5;
 inline constexpr double kRingRadius = 0.8;
 
-/// A square's or a ring's plane is seen so flatly that it cannot be taken.
+/// Returns true if a square or ring is too edge-on to be taken.
 [[nodiscard]] bool edgeOn(const Gizmo& gizmo, std::size_t axis, const Vec3& direction) noexcept;
 
 /// Returns the handle under a ray: the nearest arrow or ring within `reach` mm, else a square.
 [[nodiscard]] Handle handleAt(const Gizmo& gizmo, const Ray& ray, double reach) noexcept;
 
-/// Multiples that a drag keeps to; 0: none.
+/// Step sizes of a drag; 0: none.
 struct Snap {
     double millimetres = 0;
     double degrees = 0;

@@ -12,7 +12,7 @@ namespace voxtact::view {
 
 /// Histogram of voxel values, fine enough for any visible range.
 struct Histogram {
-    ValueRange range;                  ///< of which `counts` are equal parts; at its upper end belongs to the last one
+    ValueRange range;                  ///< divided into equal parts by `counts`; the upper end belongs to the last part
     std::vector<std::uint64_t> counts; ///< voxels outside of the range are in none
 
     [[nodiscard]] bool operator==(const Histogram& other) const {
@@ -29,8 +29,8 @@ struct Bars {
     double width = 1; ///< of each: a whole number of the histogram's parts
     std::vector<std::uint64_t> counts;
 };
-/// At most `most` + 1 bars that cover a range of values; none where the histogram has nothing there. They begin at
-/// multiples of their width, so that they stay what they are while the range is moved.
+/// Returns at most `most` + 1 bars that cover a range of values; none if the histogram has none there. They begin at
+/// multiples of their width, so they stay the same while the range moves.
 [[nodiscard]] Bars barsOf(const Histogram& histogram, const ValueRange& shown, std::size_t most);
 
 /// Voxels of a box that are replaced by others.
@@ -40,10 +40,10 @@ struct ReplacedVoxels {
     std::span<const std::byte> before; ///< all of the box, x fastest
     std::span<const std::byte> after;  ///< the same
 };
-/// Makes a histogram that of the volume with them.
+/// Updates a histogram for the replaced voxels.
 void recount(Histogram& histogram, const ReplacedVoxels& voxels);
 
-/// The value of the voxel nearest to a world point, in the image's units; nothing outside of the image.
+/// Returns the value of the voxel nearest to a world point, in the image's units; empty outside the image.
 [[nodiscard]] std::optional<double> valueAt(const VolumeView& volume, const Mat4& texture_from_world,
                                             const Vec3& world);
 

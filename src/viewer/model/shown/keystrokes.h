@@ -8,8 +8,8 @@
 
 namespace voxtact::view {
 
-/// Letters, and keys that edit a text, in the order in which they were typed, however many come between two frames.
-/// Dear ImGui takes a frame's letters before its keys: so a frame has the letters up to the first key.
+/// Letters and editing keys in the order of typing, for any number between two frames. Dear ImGui takes a frame's
+/// letters before its keys, so a frame has the letters up to the first key.
 class Keystrokes {
   public:
     struct Frame {

@@ -18,13 +18,14 @@ class Pointer {
 
     /// Pointer state of a frame.
     struct Seen {
-        std::optional<Point2> at; ///< where a button changed; nothing: wherever the pointer is now
+        std::optional<Point2> at; ///< position of a button's change; empty: the pointer's position
         std::array<bool, kButtons> down{};
-        std::array<int, kButtons> clicks{}; ///< soon after another at one place, with that of this frame; 0: no press
+        std::array<int, kButtons>
+            clicks{}; ///< number of presses in quick succession at one position, including this one; 0: no press
     };
 
     void moveTo(const Point2& at) { place_ = at; }
-    /// `reach`: how far from the click before it a click may be that belongs to it.
+    /// `reach`: maximum distance of consecutive clicks of a double click.
     void press(std::size_t button, double seconds, double reach);
     void release(std::size_t button);
 
@@ -50,7 +51,7 @@ class Pointer {
     std::array<bool, kButtons> down_{}; ///< as the last frame saw them
     std::array<Click, kButtons> last_{};
     Point2 place_{};
-    Point2 told_{};     ///< where it was in the last of the steps, else in the last frame
+    Point2 told_{};     ///< position in the last step, else in the last frame
     double looked_ = 0; ///< when the last frame began
 };
 

@@ -62,7 +62,7 @@ std::vector<OutlinePiece> outline(const MeshView& mesh, const Mat4& world_from_o
 int decimalsOn(const Grid& grid, int decimals) {
     constexpr int kMostMore = 6;
     const double voxel = *std::ranges::min_element(grid.spacing);
-    // Tenths tell voxels of a tenth apart.
+    // Tenths of a voxel are distinguishable.
     return decimals + std::clamp(-1 - static_cast<int>(std::floor(std::log10(voxel))), 0, kMostMore);
 }
 

@@ -15,7 +15,7 @@ namespace voxtact::view {
 struct SliceKind {
     const char* name;
     ViewDirection direction;
-    std::size_t axis; ///< of the world, at right angles to it
+    std::size_t axis; ///< world axis perpendicular to the slice
     const char* left;
     const char* right;
     const char* top;
@@ -37,13 +37,13 @@ struct SlicePlace {
 /// x and y of a picture, 0..1 from its upper left corner.
 using Point2 = std::array<double, 2>;
 
-/// The point of the world at a point of the picture, and the other way round.
+/// Converts between points of the picture and of the world.
 [[nodiscard]] Vec3 worldAt(const SlicePlace& place, const Point2& at);
 [[nodiscard]] Point2 pictureAt(const SlicePlace& place, const Vec3& world);
 
 /// Number of decimals of a millimetre; more if voxels are too small to distinguish.
 [[nodiscard]] int decimalsOn(const Grid& grid, int decimals);
-/// A length or a place with that many; zero has no sign.
+/// Formats a length or position with that many decimals; zero has no sign.
 [[nodiscard]] std::string mmText(const Grid& grid, int decimals, double mm);
 
 /// A piece of a mesh's outline in a slice.

@@ -21,14 +21,14 @@ struct ViewCube {
 [[nodiscard]] std::optional<ViewCube> cubeIn(const std::array<double, 2>& corner, const std::array<double, 2>& size,
                                              double line) noexcept;
 
-/// The sides that the camera sees.
+/// Returns the visible sides.
 [[nodiscard]] std::vector<SeenSide> seenSides(const Camera& camera);
 
-/// The side, of kPatientSides, at a point of the window; nothing beside the cube.
+/// Returns the side, of kPatientSides, at a point of the window; empty outside the cube.
 [[nodiscard]] std::optional<std::size_t> sideAt(const ViewCube& cube, const Camera& camera,
                                                 const std::array<double, 2>& at);
 
-/// Looks at a side of kPatientSides, with the same target.
+/// Views a side of kPatientSides, with the same target.
 void lookAtSide(Camera& camera, std::size_t side) noexcept;
 
 } // namespace voxtact::view

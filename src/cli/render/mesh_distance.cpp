@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/render/mesh_clearance.h"
+#include "cli/render/mesh_distance.h"
 
 #include "cli/draw/text.h"
 #include "cli/draw/viridis.h"
@@ -72,7 +72,7 @@ Places placesOf(const MeshData& mesh) {
     return places;
 }
 
-/// A triangle whose corners are one point has the clearance of that point.
+/// A triangle whose corners are one point has the distance of that point.
 Result<cpu::Mesh> pointMesh(const Vec3& point) {
     std::array<double, 9> corners{};
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -159,7 +159,7 @@ std::optional<Point> pixelOf(const Vec3& world, const Mat4& clip_from_world, con
 
 } // namespace
 
-MeshData meshForClearance(MeshData mesh, std::span<const Mat4> poses, double maximum) {
+MeshData meshForDistances(MeshData mesh, std::span<const Mat4> poses, double maximum) {
     double scale = 0;
     for (const Mat4& pose : poses) {
         scale = std::max(scale, scaleOf(pose));
@@ -167,12 +167,12 @@ MeshData meshForClearance(MeshData mesh, std::span<const Mat4> poses, double max
     return halveLongEdges(std::move(mesh), maximum / kSteps / scale, kMostTriangles);
 }
 
-Result<MeshClearance> measureMeshes(const ShownPairs& pairs, double maximum, bool progress) {
+Result<MeshDistances> measureMeshes(const ShownPairs& pairs, double maximum, bool progress) {
     const Result<HostScene> scene = hostScene(pairs);
     VOXTACT_TRY(scene);
     Result<cpu::HostEngine> engine = cpu::HostEngine::create();
     VOXTACT_TRY(engine);
-    MeshClearance out;
+    MeshDistances out;
     out.maximum = maximum;
     for (const MeshData& data : pairs.meshes) {
         const Result<cpu::Mesh> mesh = cpu::Mesh::create(data.view());
@@ -189,7 +189,7 @@ Result<MeshClearance> measureMeshes(const ShownPairs& pairs, double maximum, boo
     return out;
 }
 
-Legend clearanceLegend(double maximum) {
+Legend distanceLegend(double maximum) {
     constexpr int kParts = 8;
     Legend out;
     out.unit = "mm";
@@ -202,12 +202,12 @@ Legend clearanceLegend(double maximum) {
     return out;
 }
 
-void drawClosest(Picture& picture, const MeshClearance& clearance, const Mat4& clip_from_world) {
+void drawClosest(Picture& picture, const MeshDistances& distances, const Mat4& clip_from_world) {
     Canvas canvas(picture.rgba, picture.width, picture.height);
     constexpr double kPlain = 512;
     const double unit = std::max(1.0, std::min(canvas.width(), canvas.height()) / kPlain);
     const double text = 13 * unit;
-    for (const PairDistance& pair : clearance.pairs) {
+    for (const PairDistance& pair : distances.pairs) {
         if (!pair.closest || pair.bounds.upper == 0) {
             continue;
         }
