@@ -43,7 +43,7 @@ Result<void> Reporter::write(const State& state) {
     report.answer = state.answer ? &*state.answer : nullptr;
     report.times = &state.times;
     report.document = &state.document;
-    report.clearance = state.distances ? &*state.distances : nullptr;
+    report.measures = state.distances ? &*state.distances : nullptr;
     report.labels = state.labelsOrNull();
     report.device = state.answeredBy;
     if (state.answer) {

@@ -310,7 +310,7 @@ const MeshAnswer* State::chosenAnswer() const {
     return answer ? answer->of(document.edit.instrument().mesh) : nullptr;
 }
 
-const MeshClearance* State::chosenDistance() const {
+const MeshMeasures* State::chosenDistance() const {
     return distances ? distances->of(document.edit.instrument().mesh) : nullptr;
 }
 

@@ -3,7 +3,7 @@
 
 #include "viewer/model/answers/comparison.h"
 #include "viewer/model/answers/live_answer.h"
-#include "viewer/model/answers/live_clearance.h"
+#include "viewer/model/answers/live_measures.h"
 #include "viewer/model/document/carving.h"
 #include "viewer/model/document/document.h"
 #include "viewer/model/document/history.h"
@@ -145,7 +145,7 @@ struct State {
     void remove(std::size_t number);
     /// Answer about the chosen instrument; null without one.
     [[nodiscard]] const MeshAnswer* chosenAnswer() const;
-    [[nodiscard]] const MeshClearance* chosenDistance() const;
+    [[nodiscard]] const MeshMeasures* chosenDistance() const;
     /// Since it was made.
     [[nodiscard]] double seconds() const;
     /// True if nothing changed for a moment.
@@ -198,8 +198,8 @@ struct State {
     std::uint64_t revision = 1;        ///< changes with inputs of the answer
     std::uint64_t pictureRevision = 1; ///< changes with inputs of the large picture
     std::optional<LiveAnswer> answer;
-    std::optional<LiveClearance> distances; ///< of this question or one before
-    Comparison comparison;                  ///< of the methods, while `comparing`
+    std::optional<LiveMeasures> distances; ///< of this question or one before
+    Comparison comparison;                 ///< of the methods, while `comparing`
     Times times;
     Strip strip; ///< by seconds()
     std::string answeredBy;

@@ -203,14 +203,14 @@ TEST(ViewReport, IsJsonWithWhatTheContractPromises) {
     shown.edit.instruments.front().world_from_object = translation({5, 6, 7});
     shown.edit.instruments.push_back({1, identity(), false});
     const LiveAnswer answer = liveAnswer(batch, 1, shown.edit.instruments, 0.5);
-    const LiveClearance clearance{1, {{1, {}, {}}}, 0};
+    const LiveMeasures measures{1, {{1, {}, {}}}, 0};
     Times times;
     StateReport report;
     report.answer = &answer;
     report.times = &times;
     report.frameTimes = report.times;
     report.document = &shown;
-    report.clearance = &clearance;
+    report.measures = &measures;
     report.commands = {"voxtact \"detect\"", "other"};
     const auto json = nlohmann::json::parse(reportText(report));
     EXPECT_EQ(json["touch"], 1);
@@ -219,7 +219,7 @@ TEST(ViewReport, IsJsonWithWhatTheContractPromises) {
     EXPECT_EQ(json["projection"], "certified");
     EXPECT_EQ(json["pose"], (nlohmann::json{1, 0, 0, 5, 0, 1, 0, 6, 0, 0, 1, 7, 0, 0, 0, 1}));
     EXPECT_EQ(json["command"], report.commands[0]);
-    EXPECT_TRUE(json["clearance"].is_null());
+    EXPECT_TRUE(json["distance"].is_null());
     EXPECT_EQ(json["chosen"], 0);
     ASSERT_EQ(json["meshes"].size(), 2U);
     EXPECT_EQ(json["meshes"][0]["mesh"], "builtin:scalpel:300");
@@ -228,13 +228,13 @@ TEST(ViewReport, IsJsonWithWhatTheContractPromises) {
     EXPECT_EQ(json["meshes"][1]["touch"], 0);
     EXPECT_EQ(json["meshes"][1]["shown"], false);
     EXPECT_EQ(json["meshes"][1]["command"], "other");
-    EXPECT_TRUE(json["meshes"][1]["clearance"].is_object());
+    EXPECT_TRUE(json["meshes"][1]["distance"].is_object());
     // Of the other one, where that is chosen.
     shown.edit.chosen = 1;
     const auto other = nlohmann::json::parse(reportText(report));
     EXPECT_EQ(other["touch"], 0);
     EXPECT_EQ(other["command"], "other");
-    EXPECT_TRUE(other["clearance"].is_object());
+    EXPECT_TRUE(other["distance"].is_object());
 }
 
 } // namespace voxtact::test

@@ -28,8 +28,10 @@ def keys(program, folder):
         state = window.until("the first answer", lambda s: s["settled"])
         assert (state["touch"], state["pose"][HEIGHT], state["method"]) == (0, 130, "cpu"), state
         compare(program, state)
-        state = window.until("the first clearance", lambda s: s["clearance"])
-        assert state["clearance"]["lo"] > 0 and len(state["clearance"]["volume"]) == 3, state
+        state = window.until("the first distance", lambda s: s["distance"])
+        assert state["distance"]["lo"] > 0 and len(state["distance"]["volume"]) == 3, state
+        compare(program, state)
+        state = window.until("the first overlap", lambda s: s["overlap"])
         compare(program, state)
         height = 130
         while state["touch"] == 0 and height > 0:

@@ -32,7 +32,7 @@ def settled(state):
 
 
 def measured(state):
-    return settled(state) and all(mesh["clearance"] for mesh in state["meshes"])
+    return settled(state) and all(mesh["distance"] for mesh in state["meshes"])
 
 
 def steps(program, folder, window):

@@ -179,7 +179,7 @@ def answer_of(program, command):
 
 
 def compare(program, state):
-    """The state's answer is that of its command; where it has a clearance and an area, these are the host's."""
+    """The state's answer is that of its command; where it has a distance and an area, these are the host's."""
     row = answer_of(program, state["command"])
     for name in ("touch", "count", "exact", "method", "projection"):
         column = "count_exact" if name == "exact" else name
@@ -187,14 +187,13 @@ def compare(program, state):
             fail(f"{name}: the window says {state[name]}, its command {row[column]}: {state['command']}")
     if "labels" in state and labels_text(state) != row["labels"]:
         fail(f"labels: the window says {labels_text(state)}, its command {row['labels']}: {state['command']}")
-    for what in ("clearance", "area"):
+    for what in ("distance", "area", "overlap"):
         if not state[what]:
             continue
-        question = "distance" if what == "clearance" else what
         word = "('[^']*'|[^ ]+)"
         command = re.sub(f" --label-counts --labels {word}( --label-names {word})?", "", state["command"])
         command = re.sub(f" --projection .*| --tf-domain={word}| --tf-size {word}", "", command)
-        row = answer_of(program, command.replace("voxtact count", f"voxtact {question}"))
+        row = answer_of(program, command.replace("voxtact count", f"voxtact {what}"))
         for name, column in (("lo", "lower"), ("hi", "upper")):
             said, is_so = float(state[what][name]), float(row[column])
             if said != is_so and abs(said - is_so) > 1e-6 * is_so:

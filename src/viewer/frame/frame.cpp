@@ -176,7 +176,7 @@ Result<void> Frames::collectAnswers(State& state, double wallMilliseconds, bool 
     if (std::optional<Result<LiveAnswer>> answer = stage_->host->take()) {
         take(state, std::move(*answer));
     }
-    if (std::optional<Result<LiveClearance>> distances = stage_->host->takeDistances()) {
+    if (std::optional<Result<LiveMeasures>> distances = stage_->host->takeDistances()) {
         if (distances->ok()) {
             state.distances = **distances;
         } else if (distances->error().code != ErrorCode::Cancelled) {

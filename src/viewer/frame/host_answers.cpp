@@ -77,7 +77,7 @@ std::optional<Result<LiveAnswer>> HostAnswers::take() {
     return std::exchange(answer_, std::nullopt);
 }
 
-std::optional<Result<LiveClearance>> HostAnswers::takeDistances() {
+std::optional<Result<LiveMeasures>> HostAnswers::takeDistances() {
     const std::lock_guard lock(mutex_);
     return std::exchange(distances_, std::nullopt);
 }
@@ -118,20 +118,26 @@ void HostAnswers::work() {
 void HostAnswers::follow(const LiveQuestion& question, const std::vector<HoleWrite>& writes) {
     for (const HoleWrite& write : writes) {
         if (const Result<void> written = volume_.write(write.hole->box, write.voxels()); !written.ok()) {
-            give(distances_, Result<LiveClearance>(written.error()));
+            give(distances_, Result<LiveMeasures>(written.error()));
         }
     }
     if (rowOf(question.method.count).host) {
         give(answer_, guard([&] { return answer(question, stop_); }));
     }
-    const Result<LiveClearance> distances = guard([&] { return measure(question); });
+    const Result<LiveMeasures> distances = guard([&] { return measure(question); });
     give(distances_, distances);
     if (!distances.ok()) {
         return;
     }
-    Result<LiveClearance> all = guard([&] { return withAreas(question, *distances); });
-    if (all.ok() || all.error().code != ErrorCode::Cancelled) {
-        give(distances_, std::move(all));
+    Result<LiveMeasures> all = *distances;
+    for (const auto more : {&HostAnswers::withAreas, &HostAnswers::withOverlaps}) {
+        all = guard([&] { return (this->*more)(question, std::move(*all)); });
+        if (all.ok() || all.error().code != ErrorCode::Cancelled) {
+            give(distances_, all);
+        }
+        if (!all.ok()) {
+            return;
+        }
     }
 }
 
@@ -172,20 +178,20 @@ Result<LiveAnswer> HostAnswers::answer(const LiveQuestion& question, const std::
     return liveAnswer(std::move(*found), question.revision, question.edit.instruments, since(begun));
 }
 
-Result<LiveClearance> HostAnswers::measure(const LiveQuestion& question) {
+Result<LiveMeasures> HostAnswers::measure(const LiveQuestion& question) {
     const auto begun = State::Clock::now();
     const Result<cpu::Batch> batch = batchOf(question, newer_);
     VOXTACT_TRY(batch);
     const Result<DistanceAnswer> found = engine_.ask(Distance{}, *batch);
     VOXTACT_TRY(found);
-    LiveClearance out{question.revision, {}, since(begun)};
+    LiveMeasures out{question.revision, {}, since(begun)};
     for (std::size_t i = 0; i < found->pairs.size(); ++i) {
         out.meshes.push_back({question.edit.instruments[i].mesh, found->pairs[i], {}});
     }
     return out;
 }
 
-Result<LiveClearance> HostAnswers::withAreas(const LiveQuestion& question, LiveClearance distances) {
+Result<LiveMeasures> HostAnswers::withAreas(const LiveQuestion& question, LiveMeasures distances) {
     const auto begun = State::Clock::now();
     const Result<cpu::Batch> batch = batchOf(question, newer_);
     VOXTACT_TRY(batch);
@@ -196,6 +202,23 @@ Result<LiveClearance> HostAnswers::withAreas(const LiveQuestion& question, LiveC
     }
     distances.milliseconds += since(begun);
     return distances;
+}
+
+Result<LiveMeasures> HostAnswers::withOverlaps(const LiveQuestion& question, LiveMeasures measures) {
+    const auto begun = State::Clock::now();
+    Result<cpu::Batch> batch = batchOf(question, newer_);
+    VOXTACT_TRY(batch);
+    for (std::size_t i = 0; i < items_.size(); ++i) {
+        batch->items = std::span(items_).subspan(i, 1);
+        const Result<OverlapAnswer> found = engine_.ask(Overlap{}, *batch);
+        if (found.ok()) {
+            measures.meshes[i].overlap = found->pairs[0];
+        } else if (found.error().code != ErrorCode::InvalidArgument) { // a mesh with holes has no inside
+            return found.error();
+        }
+    }
+    measures.milliseconds += since(begun);
+    return measures;
 }
 
 } // namespace voxtact::view

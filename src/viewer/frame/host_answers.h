@@ -12,8 +12,8 @@
 
 namespace voxtact::view {
 
-/// Answers of the host engine, with distances and areas, on a separate thread: answers the last of several questions. A
-/// new question cancels measurements and comparisons.
+/// Answers of the host engine, with distances, areas and overlaps, on a separate thread: answers the last of several
+/// questions. A new question cancels measurements and comparisons.
 class HostAnswers {
   public:
     /// Copies its inputs from the state. `wake`: called from its thread when there is an answer.
@@ -31,8 +31,8 @@ class HostAnswers {
     [[nodiscard]] std::optional<Result<LiveAnswer>> takeCompared();
     /// Returns the newest answer, once; empty if there is no new one.
     [[nodiscard]] std::optional<Result<LiveAnswer>> take();
-    /// Returns the distances, once without and once with areas.
-    [[nodiscard]] std::optional<Result<LiveClearance>> takeDistances();
+    /// Returns the distances, then with areas, then with overlaps.
+    [[nodiscard]] std::optional<Result<LiveMeasures>> takeDistances();
 
   private:
     HostAnswers(cpu::HostEngine engine, cpu::Volume volume, std::vector<cpu::Mesh> meshes, const State& state,
@@ -42,9 +42,11 @@ class HostAnswers {
     /// Valid until the next call.
     [[nodiscard]] Result<cpu::Batch> batchOf(const LiveQuestion& question, const std::atomic<bool>& cancel);
     [[nodiscard]] Result<LiveAnswer> answer(const LiveQuestion& question, const std::atomic<bool>& cancel);
-    [[nodiscard]] Result<LiveClearance> measure(const LiveQuestion& question);
+    [[nodiscard]] Result<LiveMeasures> measure(const LiveQuestion& question);
+    /// Adds the overlaps of closed meshes.
+    [[nodiscard]] Result<LiveMeasures> withOverlaps(const LiveQuestion& question, LiveMeasures measures);
     /// Adds the areas to the distances.
-    [[nodiscard]] Result<LiveClearance> withAreas(const LiveQuestion& question, LiveClearance distances);
+    [[nodiscard]] Result<LiveMeasures> withAreas(const LiveQuestion& question, LiveMeasures distances);
     void follow(const LiveQuestion& question, const std::vector<HoleWrite>& writes);
 
     cpu::HostEngine engine_;
@@ -68,7 +70,7 @@ class HostAnswers {
     std::uint64_t written_ = 0;     ///< that were taken over
     std::optional<Result<LiveAnswer>> answer_;
     std::optional<Result<LiveAnswer>> compared_;
-    std::optional<Result<LiveClearance>> distances_;
+    std::optional<Result<LiveMeasures>> distances_;
     std::atomic<bool> stop_ = false;
     std::atomic<bool> newer_ = false; ///< a question waits
     std::thread thread_;

@@ -88,14 +88,14 @@ void drawLabels(const State& state) {
 }
 
 void drawDistance(const State& state) {
-    const MeshClearance* measured = state.chosenDistance();
+    const MeshMeasures* measured = state.chosenDistance();
     if (measured == nullptr) {
         ImGui::TextColored(quietColour(), "measuring ...");
         return;
     }
     ImVec4 colour = ImGui::GetStyle().Colors[ImGuiCol_Text];
     colour.w = state.distances->revision == state.revision ? 1.0F : 0.5F;
-    const std::string text = clearanceText(*measured);
+    const std::string text = measuresText(*measured);
     ImGui::TextColored(colour, "%s", shortened(text, ImGui::GetContentRegionAvail().x).c_str());
     if (ImGui::IsItemHovered()) {
         ImGui::SetTooltip("%s\n"
@@ -103,6 +103,12 @@ void drawDistance(const State& state) {
                           "the least distance between the mesh and what is opaque or, where it touches,\n"
                           "the area of its surface that is opaque.",
                           text.c_str(), state.distances->milliseconds);
+    }
+    if (const std::string overlap = overlapText(*measured); !overlap.empty()) {
+        ImGui::TextColored(colour, "%s", shortened(overlap, ImGui::GetContentRegionAvail().x).c_str());
+        if (ImGui::IsItemHovered()) {
+            ImGui::SetTooltip("%s\nCertified bounds of the opaque volume inside the closed mesh.", overlap.c_str());
+        }
     }
 }
 

@@ -20,7 +20,7 @@ std::string nameOf(const MeshSource& source) {
 }
 
 /// Distance, or contact area.
-std::string nearness(const MeshClearance& measured) {
+std::string nearness(const MeshMeasures& measured) {
     const auto& [lo, hi] = measured.pair.bounds;
     if (std::isinf(lo)) {
         return "-";
@@ -46,7 +46,7 @@ void drawSaid(const State& state, std::size_t mesh) {
         ImGui::Text("%s%llu", exact, static_cast<unsigned long long>(answer->pair.count));
     }
     ImGui::TableNextColumn();
-    if (const MeshClearance* measured = state.distances ? state.distances->of(mesh) : nullptr) {
+    if (const MeshMeasures* measured = state.distances ? state.distances->of(mesh) : nullptr) {
         const bool current = state.distances->revision == state.revision;
         const ImVec4 colour = current ? ImGui::GetStyle().Colors[ImGuiCol_Text] : quietColour();
         ImGui::TextColored(colour, "%s", nearness(*measured).c_str());

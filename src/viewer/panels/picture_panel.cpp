@@ -57,7 +57,7 @@ void drawPath(const State& state, const Onto& onto, ImDrawList& list) {
 }
 
 void drawClosest(const State& state, const Onto& onto, ImDrawList& list) {
-    const MeshClearance* measured = state.chosenDistance();
+    const MeshMeasures* measured = state.chosenDistance();
     const auto segment = measured != nullptr ? closestSegment(measured->pair) : std::nullopt;
     if (!segment) {
         return;

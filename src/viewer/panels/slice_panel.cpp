@@ -64,7 +64,7 @@ void drawMesh(const State& state, const Instrument& instrument, std::size_t slic
 
 /// Faint where it is outside the slice.
 void drawClosest(const State& state, std::size_t slice, const SlicePlace& place, const Rect& rect, ImDrawList& list) {
-    const MeshClearance* measured = state.chosenDistance();
+    const MeshMeasures* measured = state.chosenDistance();
     const auto segment = measured != nullptr ? closestSegment(measured->pair) : std::nullopt;
     if (!segment) {
         return;

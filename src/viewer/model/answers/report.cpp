@@ -17,24 +17,23 @@ Json orInfinite(double value) {
 }
 
 /// Returns null if it belongs to another question or mesh.
-const MeshClearance* measuredOf(const StateReport& report, std::size_t mesh) {
-    const LiveClearance* live = report.clearance;
+const MeshMeasures* measuredOf(const StateReport& report, std::size_t mesh) {
+    const LiveMeasures* live = report.measures;
     return live != nullptr && live->revision == report.answer->revision ? live->of(mesh) : nullptr;
 }
 
-/// Null until it is measured.
-Json areaJson(const StateReport& report, std::size_t mesh) {
-    const MeshClearance* measured = measuredOf(report, mesh);
-    if (measured == nullptr || !measured->area) {
+/// Area or overlap; null until it is measured.
+template <class Measure> Json measureJson(const std::optional<Measure>& measure) {
+    if (!measure) {
         return nullptr;
     }
-    const Bounds& bounds = measured->area->bounds;
-    return {{"lo", bounds.lower}, {"hi", orInfinite(bounds.upper)}, {"end", toString(measured->area->end)}};
+    const Bounds& bounds = measure->bounds;
+    return {{"lo", bounds.lower}, {"hi", orInfinite(bounds.upper)}, {"end", toString(measure->end)}};
 }
 
 /// Null until it is measured.
 Json distanceJson(const StateReport& report, std::size_t mesh) {
-    const MeshClearance* measured = measuredOf(report, mesh);
+    const MeshMeasures* measured = measuredOf(report, mesh);
     if (measured == nullptr) {
         return nullptr;
     }
@@ -71,8 +70,10 @@ void addMesh(Json& json, const StateReport& report, const MeshAnswer& answer) {
     }
     json["triangles"] = answer.triangles.size();
     json["contacts"] = answer.contactsFound;
-    json["clearance"] = distanceJson(report, answer.instrument.mesh);
-    json["area"] = areaJson(report, answer.instrument.mesh);
+    json["distance"] = distanceJson(report, answer.instrument.mesh);
+    const MeshMeasures* measured = measuredOf(report, answer.instrument.mesh);
+    json["area"] = measured == nullptr ? Json() : measureJson(measured->area);
+    json["overlap"] = measured == nullptr ? Json() : measureJson(measured->overlap);
     if (report.labels != nullptr) {
         json["labels"] = labelsJson(*report.labels, answer);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "viewer/model/answers/live_clearance.h"
+#include "viewer/model/answers/live_measures.h"
 
 #include "core/base/infinity.h"
 #include "core/base/outward.h"
@@ -27,13 +27,13 @@ std::string written(double mm, int decimals) {
 
 } // namespace
 
-const MeshClearance* LiveClearance::of(std::size_t mesh) const noexcept {
-    const auto at = std::ranges::find_if(meshes, [mesh](const MeshClearance& one) { return one.mesh == mesh; });
+const MeshMeasures* LiveMeasures::of(std::size_t mesh) const noexcept {
+    const auto at = std::ranges::find_if(meshes, [mesh](const MeshMeasures& one) { return one.mesh == mesh; });
     return at == meshes.end() ? nullptr : &*at;
 }
 
-bool LiveClearance::hasAreas() const noexcept {
-    return std::ranges::all_of(meshes, [](const MeshClearance& one) { return one.area.has_value(); });
+bool LiveMeasures::hasAreas() const noexcept {
+    return std::ranges::all_of(meshes, [](const MeshMeasures& one) { return one.area.has_value(); });
 }
 
 std::string lowerText(double mm) {
@@ -46,7 +46,7 @@ std::string upperText(double mm) {
     return written(upperRounded(mm, std::pow(10, decimals)), decimals);
 }
 
-std::string clearanceText(const MeshClearance& measured) {
+std::string measuresText(const MeshMeasures& measured) {
     const auto& [lo, hi] = measured.pair.bounds;
     if (std::isinf(lo)) {
         return "nothing is opaque";
@@ -57,6 +57,19 @@ std::string clearanceText(const MeshClearance& measured) {
         return (isKnown ? lowerText(area.lower) + " to " + upperText(area.upper) + " mm\u00b2 touch" : "touches");
     }
     return (std::isinf(hi) ? "at least " + lowerText(lo) : lowerText(lo) + " to " + upperText(hi)) + " mm away";
+}
+
+std::string overlapText(const MeshMeasures& measured) {
+    if (!measured.overlap) {
+        return {};
+    }
+    const auto& [lower, upper] = measured.overlap->bounds;
+    if (upper == 0) {
+        return "nothing opaque inside";
+    }
+    const double share = std::floor(100 * lower / measured.overlap->solid.upper);
+    return lowerText(lower) + " to " + upperText(upper) + " mm\u00b3 inside, at least " + written(share, 0) +
+           " % of the mesh";
 }
 
 std::optional<std::array<Vec3, 2>> closestSegment(const PairDistance& pair) noexcept {
