@@ -234,7 +234,8 @@ VXT_CHECKED vxt_result vxt_framing_view(const vxt_grid* grid, uint32_t width, ui
 
 /// Refuses elements that are not finite and a last row other than 0 0 0 1.
 VXT_CHECKED vxt_result vxt_check_affine(const double b_from_a[16]);
-// The result of these functions may be one of their arguments.
+
+// The result of each of these functions may be one of its arguments.
 
 /// Returns the second camera of the projection TWO_VIEW: voxtact::sideView().
 VXT_CHECKED vxt_result vxt_side_view(const double clip_from_world[16], double side_from_world[16]);
@@ -643,6 +644,24 @@ VXT_CHECKED vxt_result vxt_ask_motion(vxt_host_engine* engine, const vxt_motion*
 /// Answers a plan, which has no pairs. The question must not be null.
 VXT_CHECKED vxt_result vxt_ask_plan(vxt_host_engine* engine, const vxt_plan* question, vxt_answer* answer);
 
+/// State of a moving mesh at one pose: voxtact::TrackedDistance.
+typedef struct vxt_tracked {
+    size_t struct_size;
+    double lower;      ///< mm: no point of the surface is nearer to an opaque point
+    double upper;      ///< mm: some point is at most this far; infinite if unknown
+    uint32_t touch;    ///< 0: no, proven; 1: yes, proven; 2: undecided
+    uint32_t searched; ///< 1: the volume was searched; 0: earlier bounds were enough
+} vxt_tracked;
+/// Tracks a mesh that moves little from call to call, on the calling thread: voxtact::cpu::DistanceTracker.
+typedef struct vxt_tracker vxt_tracker;
+/// Creates a tracker. `max`: search radius, mm; 0: unlimited. `resolution`: voxels; 0: 1/64. `max_steps`: iteration
+/// limit per search; 0: 512.
+VXT_CHECKED vxt_result vxt_tracker_create(double max, double resolution, uint64_t max_steps, vxt_tracker** tracker);
+/// Tracks the mesh at the one pose of the item. `opacity_threshold`: above 0, up to 1; 0: 0.1.
+VXT_CHECKED vxt_result vxt_tracker_track(vxt_tracker* tracker, const vxt_host_item* item, double opacity_threshold,
+                                         vxt_tracked* tracked);
+VXT_API void vxt_tracker_destroy(vxt_tracker* tracker);
+
 // ======== Limits and defaults ========
 
 /// Limits and defaults that are whole numbers.
@@ -680,24 +699,6 @@ typedef struct vxt_fact {
 VXT_API size_t vxt_fact_count(void);
 /// Returns a fact by index.
 VXT_CHECKED vxt_result vxt_fact_get(size_t index, vxt_fact* fact);
-
-/// State of a moving mesh at one pose: voxtact::TrackedDistance.
-typedef struct vxt_tracked {
-    size_t struct_size;
-    double lower;      ///< mm: no point of the surface is nearer to an opaque point
-    double upper;      ///< mm: some point is at most this far; infinite if unknown
-    uint32_t touch;    ///< 0: no, proven; 1: yes, proven; 2: undecided
-    uint32_t searched; ///< 1: the volume was searched; 0: earlier bounds were enough
-} vxt_tracked;
-/// Tracks a mesh that moves little from call to call, on the calling thread: voxtact::cpu::DistanceTracker.
-typedef struct vxt_tracker vxt_tracker;
-/// Creates a tracker. `max`: search radius, mm; 0: unlimited. `resolution`: voxels; 0: 1/64. `max_steps`: iteration
-/// limit per search; 0: 512.
-VXT_CHECKED vxt_result vxt_tracker_create(double max, double resolution, uint64_t max_steps, vxt_tracker** tracker);
-/// Tracks the mesh at the one pose of the item. `opacity_threshold`: above 0, up to 1; 0: 0.1.
-VXT_CHECKED vxt_result vxt_tracker_track(vxt_tracker* tracker, const vxt_host_item* item, double opacity_threshold,
-                                         vxt_tracked* tracked);
-VXT_API void vxt_tracker_destroy(vxt_tracker* tracker);
 
 // ======== Files ========
 

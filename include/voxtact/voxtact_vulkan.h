@@ -48,13 +48,13 @@ typedef struct vxt_context_desc {
     vxt_log_callback log;                              ///< optional; receives warnings, one line each
     void* log_user;                                    ///< first argument of `log`
     uint32_t api_version;                              ///< of the instance; at least VK_API_VERSION_1_3
-    const uint32_t* queue_families;                    ///< of the queues that use the objects; several share them
+    const uint32_t* queue_families;                    ///< families of all queues that use the objects
     size_t queue_family_count;                         ///< length of queue_families
     uint64_t fragments_at_once;                        ///< per draw: voxtact::ContextDesc::fragmentsAtOnce
     vxt_memory_callbacks memory;                       ///< optional: the caller's allocator of device memory
 } vxt_context_desc;
 
-/// A feature that voxtact uses: voxtact::Requirement. Static lifetime.
+/// A feature that voxtact uses: voxtact::Requirement. Its texts have static lifetime.
 typedef struct vxt_requirement {
     const char* feature;   ///< member of `structure`, as Vulkan spells it
     const char* structure; ///< e.g. "VkPhysicalDeviceVulkan13Features"
@@ -505,7 +505,7 @@ typedef enum vxt_paint {
     VXT_PAINT_MAX = 0x7fffffff
 } vxt_paint;
 
-/// A mesh at a pose, with its appearance: voxtact::SceneMesh and voxtact::MeshPaint. Black has a -0.0.
+/// A mesh at a pose, with its appearance: voxtact::SceneMesh and voxtact::MeshPaint. A black colour contains a -0.0.
 typedef struct vxt_scene_mesh {
     size_t struct_size;
     const vxt_mesh* mesh;                           ///< required
@@ -627,8 +627,8 @@ VXT_CHECKED vxt_result vxt_blocking_renderer_create(const vxt_context* context, 
                                                     vxt_blocking_renderer** renderer);
 /// Returns the recording renderer, for creating the parts of a scene; null for null.
 VXT_API const vxt_renderer* vxt_blocking_renderer_renderer(const vxt_blocking_renderer* renderer);
-/// Renders a picture; one at a time. With `progress` or the scene's `cancel`, renders bands of rows of about a fifth of
-/// a second each, and returns CANCELLED after a band if `cancel` is set. After a failure `picture` is unchanged.
+/// Renders a picture; one at a time. With `progress` or the scene's `cancel`, renders bands of rows of about 0.2 s
+/// each, and returns CANCELLED after the band in which `cancel` is set. After a failure `picture` is unchanged.
 VXT_CHECKED vxt_result vxt_blocking_renderer_render(vxt_blocking_renderer* renderer, const vxt_picture_scene* scene,
                                                     uint32_t width, uint32_t height, vxt_picture_progress progress,
                                                     void* user, vxt_picture* picture);
