@@ -99,7 +99,7 @@ template <class Desc>
 /// A method of the device; what it is given must outlive it.
 [[nodiscard]] MadeEngine makeDeviceEngine(const device::Session& session, const DetectorDesc& desc);
 /// The same by the blocking convenience, all pairs in one submission, whatever the feeding. With
-/// DetectorDesc::devicePoses they are written to where the device reads them, as floats; that is part of its time.
+/// devicePoses they are written to where the device reads them, as floats; that is part of its time.
 [[nodiscard]] MadeEngine makeBlockingEngine(const device::Session& session, const DetectorDesc& desc);
 /// How the host learns that the device is done.
 enum class Awaiting {
@@ -107,7 +107,7 @@ enum class Awaiting {
     Wait, ///< it sleeps until the driver wakes it
 };
 /// A method of the device as a loop that needs its answer now uses it: a submission a pose, of a command buffer that is
-/// recorded each time, with Results of its own and no timestamps. With DetectorDesc::devicePoses it is recorded once,
+/// recorded each time, with Results of its own and no timestamps. With devicePoses it is recorded once,
 /// for the first work that it gets, and the pose, as floats, is written into mapped memory. Without a method: with
 /// nothing in the command buffer, which is recorded once, and without answers: what a submission costs. Whatever the
 /// feeding; nothing is made while it runs.
