@@ -5,7 +5,7 @@
 
 namespace voxtact {
 
-/// A DetectorDesc as the passes read it: the options of both alternatives. Defaults are those of the other alternative.
+/// A DetectorDesc as the passes read it. Options that its alternative lacks have these defaults.
 struct PassDesc {
     CountingMethod method = CountingMethod::Compute;
     Projection projection = Projection::Certified;

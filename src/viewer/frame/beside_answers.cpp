@@ -9,10 +9,11 @@ namespace voxtact::view {
 Result<std::unique_ptr<BesideAnswers>> BesideAnswers::create(const device::Session& session, DeviceScene& scene,
                                                              std::shared_ptr<Detectors> detectors,
                                                              std::function<void()> wake) {
+    DeviceAnswers answers(session, scene, detectors);
     Result<device::TimedSubmission> submission = device::TimedSubmission::create(session);
     VOXTACT_TRY(submission);
     return std::unique_ptr<BesideAnswers>(
-        new BesideAnswers(scene, detectors, {session, scene, detectors}, std::move(*submission), std::move(wake)));
+        new BesideAnswers(scene, std::move(detectors), std::move(answers), std::move(*submission), std::move(wake)));
 }
 
 BesideAnswers::BesideAnswers(DeviceScene& scene, std::shared_ptr<Detectors> detectors, DeviceAnswers answers,
