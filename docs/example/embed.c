@@ -246,7 +246,7 @@ static vxt_context* make_context(const renderer* r) {
 static void ask_the_device(renderer* r, const scene* s, vxt_answer* answer) {
     vxt_context* context = make_context(r);
     const vxt_queue queue = {.struct_size = sizeof queue, .queue = r->queue, .family = r->queue_family};
-    const vxt_detector_desc desc = {.struct_size = sizeof desc, .method = vxt_context_default_method(context)};
+    const vxt_raster_desc desc = {.struct_size = sizeof desc, .method = vxt_context_default_method(context)};
     vxt_volume* volume;
     vxt_transfer_function* opacity;
     vxt_mesh* mesh;
@@ -255,8 +255,8 @@ static void ask_the_device(renderer* r, const scene* s, vxt_answer* answer) {
     done(vxt_volume_upload(context, &queue, &s->volume, NULL, &volume));
     done(vxt_transfer_function_upload(context, &queue, &s->opacity, NULL, &opacity));
     done(vxt_mesh_upload(context, &queue, &s->mesh, NULL, &mesh));
-    done(vxt_detector_create(context, &desc, &detector));
-    done(vxt_results_create(context, NULL, &results));
+    done(vxt_detector_create_raster(context, &desc, &detector));
+    done(vxt_results_create(detector, NULL, &results));
 
     const vxt_item item = {.struct_size = sizeof item,
                            .mesh = mesh,

@@ -215,8 +215,8 @@ int main() {
     const auto volume = take(voxtact::Volume::upload(context, queue, image.view()));
     const auto opacity = take(voxtact::TransferFunction::upload(context, queue, {.points = points}));
     const auto mesh = take(voxtact::Mesh::upload(context, queue, shape.view()));
-    const auto detector = take(voxtact::Detector::create(context, {.method = context.defaultMethod()}));
-    auto results = take(voxtact::Results::create(context, {.maxPairs = 1}));
+    const auto detector = take(voxtact::Detector::raster(context, {.method = context.defaultMethod()}));
+    auto results = take(voxtact::Results::create(detector, {.maxPairs = 1}));
 
     const voxtact::BatchItem item{&mesh, &volume, &opacity, {&world_from_object, 1}};
     take(detector.cmdDetect(commands, {.items = {&item, 1}, .view = view}, results)); // only records

@@ -229,16 +229,12 @@ static void upload_the_rest(detection* d) {
 }
 
 static void make_detectors(detection* d) {
-    vxt_detector_desc desc = {.struct_size = sizeof desc, .method = vxt_context_default_method(d->context)};
-    done(vxt_detector_create(d->context, &desc, &d->counting));
-    desc.method = VXT_METHOD_COMPUTE;
-    desc.projection = VXT_PROJECTION_CERTIFIED;
-    desc.filter = VXT_FILTER_EXACT;
-    done(vxt_detector_create(d->context, &desc, &d->certified));
+    const vxt_raster_desc desc = {.struct_size = sizeof desc, .method = vxt_context_default_method(d->context)};
+    done(vxt_detector_create_raster(d->context, &desc, &d->counting));
+    done(vxt_detector_create_certified(d->context, NULL, &d->certified));
     const vxt_results_desc room = {.struct_size = sizeof room, .max_pairs = POSES};
-    for (int i = 0; i < 2; ++i) {
-        done(vxt_results_create(d->context, &room, &d->results[i]));
-    }
+    done(vxt_results_create(d->counting, &room, &d->results[0]));
+    done(vxt_results_create(d->certified, &room, &d->results[1]));
 }
 
 static void make_commands(detection* d) {

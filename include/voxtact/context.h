@@ -73,7 +73,7 @@ struct Requirement {
 [[nodiscard]] VOXTACT_API std::span<const Requirement> requirements() noexcept;
 
 /// Device extensions that voxtact can use, and that no method needs: VK_EXT_conservative_rasterization, for
-/// DetectorDesc::overestimate. Nothing is reported where they are not enabled.
+/// RasterDesc::overestimate. Nothing is reported where they are not enabled.
 [[nodiscard]] VOXTACT_API std::span<const char* const> optionalDeviceExtensions() noexcept;
 
 /// A feature chain for vkCreateDevice with every one of requirements() that `supported` offers, and nothing else.

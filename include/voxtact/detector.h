@@ -8,37 +8,47 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace voxtact {
 
+class Detector;
 struct DetectorImpl;
 struct ResultsImpl;
 
-/// What a Detector is made for. Fixed for its life: each combination is its own set of pipelines.
-struct DetectorDesc {
-    CountingMethod method = CountingMethod::Query; ///< how survivors are counted; Cpu is refused: see cpu.h
-    Projection projection = Projection::View;      ///< how meshes become fragments
-    Filter filter = Filter::Hardware;              ///< how the image is sampled; Certified never looks at it
-    Boundary boundary = Boundary::Auto;            ///< the projection certified always tests the range
-    Outputs outputs{};                             ///< in addition to the counts; the Results need room for them
+/// Certified answers, with rounding included: the projection certified by the method compute. Uses no camera and no
+/// filter. The volumes need bricks.
+struct CertifiedDesc {
+    double resolution = kDefaultResolution; ///< voxels; 2^-12 to 1
+    Outputs outputs{};                      ///< in addition to the counts; ResultsDesc::room is their capacity
+    bool stopAtFirst = false;               ///< early exit, without outputs: the count is 0 or 1, a lower bound
+    bool counters = false; ///< counts the work of the passes for Results::counters(); costs some atomics per triangle
+    /// Batches may have BatchItem::poses. Adds the pass that makes pairs of them. In staged Results it also makes the
+    /// pairs of 256 poses of the host or more; the pairs are the same, bit for bit. Unsupported on a device without
+    /// doubles that round like the host's (shaderFloat64, shaderSignedZeroInfNanPreserveFloat64,
+    /// shaderRoundingModeRTEFloat64).
+    bool devicePoses = false;
+};
+
+/// Counts of the fragments of a rasterisation.
+struct RasterDesc {
+    CountingMethod method = CountingMethod::Query;           ///< how fragments are counted; Cpu is refused: see cpu.h
+    Projection projection = Projection::View;                ///< how meshes become fragments; Certified is refused
+    Filter filter = Filter::Hardware;                        ///< how the image is sampled
+    Boundary boundary = Boundary::Auto;                      ///< treatment of points outside the image
+    Outputs outputs{};                                       ///< like CertifiedDesc::outputs
     std::uint32_t samplesPerVoxel = kDefaultSamplesPerVoxel; ///< dominant-axis: along a voxel's side; 1 to 16
-    double resolution = kDefaultResolution;                  ///< certified, voxels; 2^-12 to 1
-    bool stopAtFirst = false; ///< certified without outputs: the count is then 0 or 1, its exactness LowerBound
-    /// certified: what the passes do is counted, for Results::counters(). Costs some atomics per triangle; nothing
-    /// where it is not asked for.
-    bool counters = false;
     /// dominant-axis: every pixel that a triangle touches gives a fragment, by VK_EXT_conservative_rasterization. Its
     /// texture coordinate is that of the pixel's centre in the triangle's plane, up to a pixel outside the triangle.
     /// InvalidArgument for other projections and for the method compute.
     bool overestimate = false;
-    /// Batches may have BatchItem::poses. The pass that makes pairs of them is then made, too, and the queue needs
-    /// compute in addition to graphics. Poses that the host has become pairs by it as well in Results that are staged,
-    /// where a batch has 256 pairs or more; the pairs are the same, bit for bit. Unsupported on a device without
-    /// doubles that round as the host's (shaderFloat64, shaderSignedZeroInfNanPreserveFloat64,
-    /// shaderRoundingModeRTEFloat64).
+    /// Like CertifiedDesc::devicePoses. The queue needs compute in addition to graphics.
     bool devicePoses = false;
 };
+
+/// Options of a Detector, fixed for its life: each combination has its own pipelines.
+using DetectorDesc = std::variant<CertifiedDesc, RasterDesc>;
 
 /// One mesh at some poses against one volume under one transfer function.
 struct BatchItem {
@@ -68,7 +78,8 @@ struct Batch {
 /// Contacts that a list has room for, where nothing else is asked for.
 inline constexpr std::uint32_t kDefaultContactRoom = 1U << 16U;
 
-/// Room for the outputs in addition to the counts, over all pairs of a batch. The bounds have room for maxPairs.
+/// Capacity for the outputs of a detector, over all pairs of a batch. Ignored for outputs that it does not have; at
+/// least 1 for those that it has. The bounds have a capacity of maxPairs.
 struct OutputRoom {
     std::uint64_t triangles = 0; ///< for the output triangles: the sum over the pairs of those of their meshes
     std::uint64_t labels = 0;    ///< for the output labels: the sum over the pairs of those of their label maps
@@ -89,18 +100,17 @@ struct ResultsDesc {
     bool readBack = true;       ///< a host-visible copy is kept, for cmdReadBack() and read()
     bool timestamps = false;    ///< cmdDetect() writes a timestamp before and after its work, read by gpuMilliseconds()
     std::uint32_t queueFamily = 0; ///< with timestamps: of the queue that will execute; refused where it has none
-    std::optional<OutputRoom> room = std::nullopt; ///< nothing: for detectors without outputs
-    /// Clusters of 64 triangles, once a pair, that a dispatch of the projection certified looks at, at most; a
-    /// batch of more is more dispatches. For each, one looks at 2^16 bricks and cells of large triangles at most, and
-    /// for all together at 3.5e9; but a cluster of one pair is never cut, and of a mesh of which the host knows no
-    /// vertex (wrapped, or after Mesh::cmdCopy()) only the clusters are bounded. Where such a mesh has so many huge
-    /// triangles that the device's own bound is passed (docs/engine.md, What bounds a dispatch), the rest of them is
-    /// left undecided: the answer is then possible. No other answer depends on it. 16 to 262144, as many as
-    /// a GPU can do before its driver takes it for stuck; each takes 721 bytes of device memory. 0: none, for Results
-    /// for other projections. Nothing: by maxPairs, 2048 to 16384, or more where the device's maxComputeWorkGroupCount
-    /// allows for it and the queues take no more than a 128th of its memory. In any case fewer where its
-    /// maxComputeWorkGroupCount (16384 for each 65535 along x) or maxStorageBufferRange has no room for them.
-    std::optional<std::uint32_t> clustersAtOnce = std::nullopt;
+    OutputRoom room{};             ///< capacity for the detector's outputs
+    /// Certified detectors: maximum clusters of 64 triangles, once per pair, in a dispatch; 16 to 262144. A larger
+    /// batch takes more dispatches. A dispatch tests at most 2^16 bricks and cells of large triangles per cluster, and
+    /// 3.5e9 in total; but it never cuts a cluster of one pair, and of a mesh of which the host knows no vertex
+    /// (wrapped, or after Mesh::cmdCopy()) only the clusters are bounded. If such a mesh has more huge triangles than
+    /// the device's own bound allows (docs/engine.md, What bounds a dispatch), the rest of them is left undecided: the
+    /// answer is then possible. No other answer depends on it. Choose it so that the driver does not take the GPU for
+    /// stuck; each cluster takes 721 bytes of device memory. 0: by maxPairs, 2048 to 16384, or more if the device's
+    /// maxComputeWorkGroupCount allows it and the queues take at most a 128th of its memory. In any case fewer where
+    /// its maxComputeWorkGroupCount (16384 for each 65535 along x) or maxStorageBufferRange has no room for them.
+    std::uint32_t clustersAtOnce = 0;
     /// What the host makes of poses goes through mapped memory of the Results, 248 bytes per pair, instead of the
     /// command buffer. Recording a batch of thousands of pairs then takes a fraction of the time with drivers that are
     /// slow to write into command buffers, as NVIDIA's is; by a detector with devicePoses it is the poses themselves,
@@ -130,10 +140,12 @@ struct ResultsDesc {
 /// Thread-safety: none; one thread at a time.
 class Results {
   public:
-    /// Allocates the buffers. Refuses zero pairs, more pairs than the device's limits allow, counting the queues where
-    /// they are asked for (LimitExceeded: which limit, how large),
-    /// timestamps on a queue family that has none, and an `into` that is too small or begins where no descriptor may.
-    [[nodiscard]] VOXTACT_API static Result<Results> create(const Context& context, const ResultsDesc& desc);
+    /// Allocates the buffers for batches of a detector, or of others of its Context: both certified or both not, and
+    /// without outputs that it lacks. Refuses zero pairs, more pairs than the device's limits allow, including the
+    /// queues of a certified detector (LimitExceeded: which limit, how large), a capacity of 0 for an output of the
+    /// detector, timestamps on a queue family that has none, and an `into` that is too small or begins where no
+    /// descriptor may.
+    [[nodiscard]] VOXTACT_API static Result<Results> create(const Detector& detector, const ResultsDesc& desc);
     VOXTACT_API Results(Results&&) noexcept;
     VOXTACT_API Results& operator=(Results&&) noexcept;
     VOXTACT_API ~Results();
@@ -181,9 +193,9 @@ class Results {
     /// Unpacks the host copy of the outputs of the batch recorded last: everything of a BatchAnswer but its pairs and
     /// times. What its detector was not made for is left empty. The same is expected as by read().
     [[nodiscard]] VOXTACT_API Result<void> readOutputs(BatchAnswer& answer);
-    /// Whether the batch recorded last is of a detector with DetectorDesc::counters.
+    /// Whether the batch recorded last is of a detector with CertifiedDesc::counters.
     [[nodiscard]] VOXTACT_API bool counted() const noexcept;
-    /// What the passes did, of a detector with DetectorDesc::counters. The same is expected as by read(); NotReady
+    /// What the passes did, of a detector with CertifiedDesc::counters. The same is expected as by read(); NotReady
     /// where they are not counted().
     [[nodiscard]] VOXTACT_API Result<CertifiedCounters> counters();
     /// Device time between the start and the end of cmdDetect()'s commands, when `timestamps` was asked for and the
@@ -193,8 +205,6 @@ class Results {
     [[nodiscard]] ResultsImpl& impl() const noexcept { return *impl_; }
 
   private:
-    friend class BlockingDetector;
-    [[nodiscard]] static Result<Results> create(ContextImpl& context, const ResultsDesc& desc);
     explicit Results(std::unique_ptr<ResultsImpl> impl) noexcept;
     std::unique_ptr<ResultsImpl> impl_;
 };
@@ -206,7 +216,7 @@ class ResultRing {
   public:
     /// `frames`: how many may be in flight, 1 to 4096. Otherwise refuses what Results::create() refuses. With
     /// ResultsDesc::into, the results of `frame` begin resultBytes(maxPairs) * (frame modulo frames) after its offset.
-    [[nodiscard]] VOXTACT_API static Result<ResultRing> create(const Context& context, std::uint32_t frames,
+    [[nodiscard]] VOXTACT_API static Result<ResultRing> create(const Detector& detector, std::uint32_t frames,
                                                                const ResultsDesc& desc);
 
     /// Slots, one for each frame in flight.
@@ -237,9 +247,13 @@ class ResultRing {
 /// Thread-safety: cmdDetect is const and safe from any thread with different command buffers and Results.
 class Detector {
   public:
-    /// Unsupported, with the missing feature or limit named, when the device cannot do the method or the outputs. The
-    /// outputs need fragmentStoresAndAtomics and geometryShader with the methods of the rasteriser, and five bound
-    /// descriptor sets (maxBoundDescriptorSets) with all.
+    /// Unsupported, with the missing feature or limit named, if the device cannot run it. The outputs need five bound
+    /// descriptor sets (maxBoundDescriptorSets).
+    [[nodiscard]] VOXTACT_API static Result<Detector> certified(const Context& context, const CertifiedDesc& desc = {});
+    /// Like certified(). With the methods of the rasteriser the outputs also need fragmentStoresAndAtomics and
+    /// geometryShader.
+    [[nodiscard]] VOXTACT_API static Result<Detector> raster(const Context& context, const RasterDesc& desc);
+    /// certified() or raster(), by the alternative.
     [[nodiscard]] VOXTACT_API static Result<Detector> create(const Context& context, const DetectorDesc& desc);
     VOXTACT_API Detector(Detector&&) noexcept;
     VOXTACT_API Detector& operator=(Detector&&) noexcept;
@@ -268,16 +282,19 @@ class Detector {
     ///                    pipeline, descriptor sets 0..3 of the compute bind point (0..4 with outputs), push
     ///                    constants
     ///
-    /// With outputs, batches are refused that the Results have no room for (the list of contacts is cut instead), and
-    /// with the output labels, items without a label map. The Results keep what readOutputs() needs of the batch.
+    /// Refuses Results of a detector that is not certified like this one, or lacks one of its outputs. With outputs,
+    /// batches are refused that the Results have no room for (the list of contacts is cut instead), and with the output
+    /// labels, items without a label map. The Results keep what readOutputs() needs of the batch.
     ///
     /// On error nothing useful was recorded, and the command buffer must not be submitted.
     VOXTACT_API Result<void> cmdDetect(VkCommandBuffer commandBuffer, const Batch& batch, Results& results) const;
 
-    /// What it was made for.
+    /// Returns the options that it was made with.
     [[nodiscard]] VOXTACT_API const DetectorDesc& desc() const noexcept;
     /// Which variant Boundary::Auto takes for an item at a threshold: Range or Clamp.
     [[nodiscard]] VOXTACT_API Boundary boundaryFor(const BatchItem& item, double threshold) const noexcept;
+
+    [[nodiscard]] DetectorImpl& impl() const noexcept { return *impl_; }
 
   private:
     friend class BlockingDetector;
@@ -289,11 +306,11 @@ class Detector {
 /// The blocking convenience: records a batch, submits it on the caller's queue, waits, and reads the answers. Keeps
 /// its command buffer, fence and Results for the next call and makes larger ones when a batch needs them. On a GPU that
 /// has doubles, a method that computes makes the pairs of 256 poses of the host or more on the device, as with
-/// DetectorDesc::devicePoses. Thread-safety: none; one thread at a time.
+/// CertifiedDesc::devicePoses. Thread-safety: none; one thread at a time.
 class BlockingDetector {
   public:
-    /// The queue's family must be able to draw, or, for the method compute, to compute. A list of contacts is cut
-    /// beyond `mostContacts`.
+    /// The queue's family must be able to draw, or, for the method compute, to compute. A CertifiedDesc or RasterDesc
+    /// converts. A list of contacts is cut beyond `mostContacts`.
     [[nodiscard]] VOXTACT_API static Result<BlockingDetector> create(const Context& context, const DetectorDesc& desc,
                                                                      const QueueAccess& queue,
                                                                      std::uint32_t mostContacts = kDefaultContactRoom);

@@ -124,7 +124,7 @@ struct BatchAnswer {
     std::uint64_t contactsFound = 0;             ///< larger than contacts.size() if the list was cut, arbitrarily
     std::vector<std::optional<Box>> bounds;      ///< world box of each pair; empty without a passing fragment
     std::vector<LabelCount> labels;              ///< by pair, then by label
-    std::optional<CertifiedCounters> counters{}; ///< with DetectorDesc::counters
+    std::optional<CertifiedCounters> counters{}; ///< with CertifiedDesc::counters
     double gpuMilliseconds = 0;                  ///< device time of the batch; 0 if unknown
     double wallMilliseconds = 0;                 ///< from the start of recording to the results in host memory
 };

@@ -12,22 +12,30 @@
 extern "C" {
 #endif
 
-/// Options of a detector: voxtact::DetectorDesc.
-typedef struct vxt_detector_desc {
+/// Options of a certified detector: voxtact::CertifiedDesc.
+typedef struct vxt_certified_desc {
+    size_t struct_size;     ///< sizeof this struct
+    double max_depth;       ///< mm: maximum depth of a contact; 0: 10
+    double resolution;      ///< voxels; 2^-12 to 1; 0: 1/64
+    uint32_t outputs;       ///< bits of vxt_output; default none; vxt_results_desc has their capacity
+    uint32_t stop_at_first; ///< early exit, without outputs: the count is 0 or 1, a lower bound; default 0
+    uint32_t counters;      ///< counts the work of the passes, for vxt_answer_counters(); default 0
+    uint32_t device_poses;  ///< allows vxt_item::poses: voxtact::CertifiedDesc::devicePoses; default 0
+} vxt_certified_desc;
+
+/// Options of a detector that counts the fragments of a rasterisation: voxtact::RasterDesc.
+typedef struct vxt_raster_desc {
     size_t struct_size;         ///< sizeof this struct
     vxt_method method;          ///< default QUERY; CPU is refused
-    vxt_projection projection;  ///< default VIEW
+    vxt_projection projection;  ///< default VIEW; CERTIFIED is refused
     vxt_filter filter;          ///< default HARDWARE
     vxt_boundary boundary;      ///< default AUTO
     double max_depth;           ///< mm: maximum depth of a contact; 0: 10
-    double resolution;          ///< CERTIFIED, voxels; 2^-12 to 1; 0: 1/64
-    uint32_t outputs;           ///< bits of vxt_output; default none; the results need capacity for them
+    uint32_t outputs;           ///< bits of vxt_output; default none; vxt_results_desc has their capacity
     uint32_t samples_per_voxel; ///< DOMINANT_AXIS: per voxel side; 1 to 16; 0: 1
-    uint32_t stop_at_first;     ///< CERTIFIED without outputs: early exit: the count is 0 or 1, a lower bound
     uint32_t overestimate;      ///< DOMINANT_AXIS: every pixel that a triangle touches gives a fragment; default 0
-    uint32_t counters;          ///< CERTIFIED: counts the work of the passes, for vxt_answer_counters(); default 0
-    uint32_t device_poses;      ///< allows vxt_item::poses: voxtact::DetectorDesc::devicePoses; default 0
-} vxt_detector_desc;
+    uint32_t device_poses;      ///< allows vxt_item::poses: voxtact::CertifiedDesc::devicePoses; default 0
+} vxt_raster_desc;
 
 /// Poses in a buffer of the caller: voxtact::WrappedPoses. 16 floats each, column-major: a mat4 of std430.
 typedef struct vxt_wrapped_poses {
@@ -78,19 +86,18 @@ typedef struct vxt_buffer_range {
     VkDeviceSize size;   ///< bytes
 } vxt_buffer_range;
 
-/// Capacity of results: voxtact::ResultsDesc.
+/// Capacity of results: voxtact::ResultsDesc. An output of the detector needs its capacity; the others are ignored.
 typedef struct vxt_results_desc {
     size_t struct_size;     ///< sizeof this struct
-    uint64_t triangle_room; ///< with outputs: triangles of all pairs' meshes together; default 0
-    uint64_t label_room;    ///< with outputs: labels of all pairs' label maps together; default 0
-    uint32_t contact_room;  ///< with outputs: maximum number of contacts; a longer list is cut; 0: 2^16
-    uint32_t outputs;       ///< bits of vxt_output for which there is capacity; default none
+    uint64_t triangle_room; ///< output TRIANGLES: triangles of all pairs' meshes together
+    uint64_t label_room;    ///< output LABELS: labels of all pairs' label maps together
+    uint32_t contact_room;  ///< output CONTACTS: maximum number; a longer list is cut; 0: 2^16
     uint32_t max_pairs;     ///< maximum number of pairs of a batch; 0: 1
     uint32_t no_read_back;  ///< 1: no host copy for vxt_results_read()
     uint32_t timestamps;    ///< 1: measures the device time; default 0
     uint32_t queue_family;  ///< with timestamps: family of the executing queue; default 0
-    /// CERTIFIED: maximum clusters per dispatch, 16 to 262144: voxtact::ResultsDesc::clustersAtOnce. Default 0: chosen
-    /// by max_pairs. VXT_NO_CLUSTERS: none, for other projections.
+    /// Certified detectors: maximum clusters per dispatch, 16 to 262144: voxtact::ResultsDesc::clustersAtOnce. Default
+    /// 0: chosen by max_pairs.
     uint32_t clusters_at_once;
     uint32_t staged; ///< 1: voxtact::ResultsDesc::staged, with its conditions for the caller; default 0
     /// Destination of the answers, one PairResult per pair: a part of a buffer of the caller, which outlives the
@@ -103,9 +110,6 @@ static inline VkDeviceSize vxt_result_bytes(uint32_t max_pairs) {
     return (UINT64_C(24) * max_pairs + 255) / 256 * 256;
 }
 
-/// Value of vxt_results_desc::clusters_at_once for other projections than CERTIFIED.
-#define VXT_NO_CLUSTERS UINT32_C(0xffffffff)
-
 /// Answers of a batch on the device, for the next pass; see voxtact::Results and device_results.h.
 typedef enum vxt_device_part {
     VXT_DEVICE_PAIRS = 0,           ///< a PairResult per pair
@@ -117,10 +121,13 @@ typedef enum vxt_device_part {
     VXT_DEVICE_MAX = 0x7fffffff     ///< makes the type 32 bits wide
 } vxt_device_part;
 
+/// Decides which pairs touch: voxtact::Detector.
+typedef struct vxt_detector vxt_detector;
+
 /// Destination of the answers of one batch in flight: voxtact::Results.
 typedef struct vxt_results vxt_results;
-/// Allocates the buffers. A null `desc` has all defaults.
-VXT_CHECKED vxt_result vxt_results_create(const vxt_context* context, const vxt_results_desc* desc,
+/// Allocates the buffers for batches of a detector: voxtact::Results::create(). A null `desc` has all defaults.
+VXT_CHECKED vxt_result vxt_results_create(const vxt_detector* detector, const vxt_results_desc* desc,
                                           vxt_results** results);
 /// Returns a part of the answers on the device; empty without capacity for it.
 VXT_CHECKED vxt_result vxt_results_on_device(const vxt_results* results, vxt_device_part part, vxt_buffer_range* range);
@@ -162,14 +169,14 @@ typedef struct vxt_certified_counters {
     uint64_t cells_certain;   ///< of cells_seen, counted without a decision: opaque, a triangle clearly inside
 } vxt_certified_counters;
 
-/// Returns the counters of an answer with vxt_detector_desc::counters; otherwise NOT_READY.
+/// Returns the counters of an answer with vxt_certified_desc::counters; otherwise NOT_READY.
 VXT_CHECKED vxt_result vxt_answer_counters(const vxt_answer* answer, vxt_certified_counters* counters);
 
 /// Results for frames in flight: voxtact::ResultRing.
 typedef struct vxt_result_ring vxt_result_ring;
 /// Creates a ring. `frames`: maximum number in flight. A null `desc` has all defaults.
-VXT_CHECKED vxt_result vxt_result_ring_create(const vxt_context* context, uint32_t frames, const vxt_results_desc* desc,
-                                              vxt_result_ring** ring);
+VXT_CHECKED vxt_result vxt_result_ring_create(const vxt_detector* detector, uint32_t frames,
+                                              const vxt_results_desc* desc, vxt_result_ring** ring);
 /// Returns the slot of a frame, for recording; the ring owns it, and it is valid until its next
 /// vxt_result_ring_begin(). The frame that used the slot before must have completed. Nothing can be read from it until
 /// a detection and its read-back are recorded.
@@ -179,12 +186,13 @@ VXT_CHECKED vxt_result vxt_result_ring_read(vxt_result_ring* ring, uint64_t fram
 /// Destroys the object and its results.
 VXT_API void vxt_result_ring_destroy(vxt_result_ring* ring);
 
-/// Decides which pairs touch: voxtact::Detector.
-typedef struct vxt_detector vxt_detector;
-/// Creates a detector. UNSUPPORTED, with the missing feature or limit, if the device cannot run it. A null `desc` has
-/// all defaults.
-VXT_CHECKED vxt_result vxt_detector_create(const vxt_context* context, const vxt_detector_desc* desc,
-                                           vxt_detector** detector);
+/// Creates a certified detector: voxtact::Detector::certified(). UNSUPPORTED, with the missing feature or limit, if the
+/// device cannot run it. A null `desc` has all defaults.
+VXT_CHECKED vxt_result vxt_detector_create_certified(const vxt_context* context, const vxt_certified_desc* desc,
+                                                     vxt_detector** detector);
+/// Like vxt_detector_create_certified(), for voxtact::Detector::raster().
+VXT_CHECKED vxt_result vxt_detector_create_raster(const vxt_context* context, const vxt_raster_desc* desc,
+                                                  vxt_detector** detector);
 /// Records the detection of a batch: no allocation of device memory, no submission, no wait, no map. On error nothing
 /// useful was recorded, and the command buffer must not be submitted.
 VXT_CHECKED vxt_result vxt_detector_cmd_detect(const vxt_detector* detector, VkCommandBuffer commands,
@@ -197,11 +205,15 @@ VXT_API void vxt_detector_destroy(vxt_detector* detector);
 
 /// Records, submits on the caller's queue, waits and reads: voxtact::BlockingDetector.
 typedef struct vxt_blocking_detector vxt_blocking_detector;
-/// Creates a detector. `most_contacts`: maximum number of contacts; a longer list is cut; 0: 2^16. A null `desc` has
-/// all defaults.
-VXT_CHECKED vxt_result vxt_blocking_detector_create(const vxt_context* context, const vxt_detector_desc* desc,
-                                                    const vxt_queue* queue, uint32_t most_contacts,
-                                                    vxt_blocking_detector** detector);
+/// Creates a certified detector. `most_contacts`: maximum number of contacts; a longer list is cut; 0: 2^16. A null
+/// `desc` has all defaults.
+VXT_CHECKED vxt_result vxt_blocking_detector_create_certified(const vxt_context* context,
+                                                              const vxt_certified_desc* desc, const vxt_queue* queue,
+                                                              uint32_t most_contacts, vxt_blocking_detector** detector);
+/// Like vxt_blocking_detector_create_certified(), for the other detectors.
+VXT_CHECKED vxt_result vxt_blocking_detector_create_raster(const vxt_context* context, const vxt_raster_desc* desc,
+                                                           const vxt_queue* queue, uint32_t most_contacts,
+                                                           vxt_blocking_detector** detector);
 /// Answers for every pair. Blocks. After a failure `answer` is unchanged.
 VXT_CHECKED vxt_result vxt_blocking_detector_detect(vxt_blocking_detector* detector, const vxt_batch* batch,
                                                     vxt_answer* answer);

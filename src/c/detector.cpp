@@ -9,26 +9,51 @@ using namespace voxtact::c;
 
 namespace {
 
-DetectorDesc toDesc(const vxt_detector_desc* given) {
-    const vxt_detector_desc desc = readOptions(given, zero<vxt_detector_desc>(), "detector");
-    return {.method = number<CountingMethod>(desc.method),
-            .projection = number<Projection>(desc.projection),
-            .filter = number<Filter>(desc.filter),
-            .boundary = number<Boundary>(desc.boundary),
-            .outputs = toOutputs(desc.outputs, orDefault(desc.max_depth, kDefaultMaxDepth)),
-            .samplesPerVoxel = orDefault(desc.samples_per_voxel, kDefaultSamplesPerVoxel),
-            .resolution = orDefault(desc.resolution, kDefaultResolution),
-            .stopAtFirst = desc.stop_at_first != 0,
-            .counters = desc.counters != 0,
-            .overestimate = desc.overestimate != 0,
-            .devicePoses = desc.device_poses != 0};
+DetectorDesc toDesc(const vxt_certified_desc* given) {
+    const vxt_certified_desc desc = readOptions(given, zero<vxt_certified_desc>(), "detector");
+    return CertifiedDesc{.resolution = orDefault(desc.resolution, kDefaultResolution),
+                         .outputs = toOutputs(desc.outputs, orDefault(desc.max_depth, kDefaultMaxDepth)),
+                         .stopAtFirst = desc.stop_at_first != 0,
+                         .counters = desc.counters != 0,
+                         .devicePoses = desc.device_poses != 0};
+}
+
+DetectorDesc toDesc(const vxt_raster_desc* given) {
+    const vxt_raster_desc desc = readOptions(given, zero<vxt_raster_desc>(), "detector");
+    return RasterDesc{.method = number<CountingMethod>(desc.method),
+                      .projection = number<Projection>(desc.projection),
+                      .filter = number<Filter>(desc.filter),
+                      .boundary = number<Boundary>(desc.boundary),
+                      .outputs = toOutputs(desc.outputs, orDefault(desc.max_depth, kDefaultMaxDepth)),
+                      .samplesPerVoxel = orDefault(desc.samples_per_voxel, kDefaultSamplesPerVoxel),
+                      .overestimate = desc.overestimate != 0,
+                      .devicePoses = desc.device_poses != 0};
+}
+
+template <class Desc> vxt_result makeDetector(const vxt_context* context, const Desc* desc, vxt_detector** detector) {
+    return create(context, "context", detector,
+                  [&](const Context& on) { return take(Detector::create(on, toDesc(desc))); });
+}
+
+template <class Desc>
+vxt_result makeBlocking(const vxt_context* context, const Desc* desc, const vxt_queue* queue,
+                        std::uint32_t mostContacts, vxt_blocking_detector** detector) {
+    return create(context, "context", detector, [&](const Context& on) {
+        return take(
+            BlockingDetector::create(on, toDesc(desc), toQueue(queue), orDefault(mostContacts, kDefaultContactRoom)));
+    });
 }
 
 } // namespace
 
-vxt_result vxt_detector_create(const vxt_context* context, const vxt_detector_desc* desc, vxt_detector** detector) {
-    return create(context, "context", detector,
-                  [&](const Context& on) { return take(Detector::create(on, toDesc(desc))); });
+vxt_result vxt_detector_create_certified(const vxt_context* context, const vxt_certified_desc* desc,
+                                         vxt_detector** detector) {
+    return makeDetector(context, desc, detector);
+}
+
+vxt_result vxt_detector_create_raster(const vxt_context* context, const vxt_raster_desc* desc,
+                                      vxt_detector** detector) {
+    return makeDetector(context, desc, detector);
 }
 
 vxt_result vxt_detector_cmd_detect(const vxt_detector* detector, VkCommandBuffer commands, const vxt_batch* batch,
@@ -56,13 +81,16 @@ void vxt_detector_destroy(vxt_detector* detector) {
     delete detector;
 }
 
-vxt_result vxt_blocking_detector_create(const vxt_context* context, const vxt_detector_desc* desc,
-                                        const vxt_queue* queue, uint32_t most_contacts,
-                                        vxt_blocking_detector** detector) {
-    return create(context, "context", detector, [&](const Context& on) {
-        return take(BlockingDetector::create(on, toDesc(desc), toQueue(queue),
-                                             most_contacts == 0 ? kDefaultContactRoom : most_contacts));
-    });
+vxt_result vxt_blocking_detector_create_certified(const vxt_context* context, const vxt_certified_desc* desc,
+                                                  const vxt_queue* queue, uint32_t most_contacts,
+                                                  vxt_blocking_detector** detector) {
+    return makeBlocking(context, desc, queue, most_contacts, detector);
+}
+
+vxt_result vxt_blocking_detector_create_raster(const vxt_context* context, const vxt_raster_desc* desc,
+                                               const vxt_queue* queue, uint32_t most_contacts,
+                                               vxt_blocking_detector** detector) {
+    return makeBlocking(context, desc, queue, most_contacts, detector);
 }
 
 vxt_result vxt_blocking_detector_detect(vxt_blocking_detector* detector, const vxt_batch* batch, vxt_answer* answer) {

@@ -10,19 +10,14 @@ namespace {
 
 ResultsDesc toDesc(const vxt_results_desc* given) {
     const vxt_results_desc desc = readOptions(given, zero<vxt_results_desc>(), "results");
-    ResultsDesc out{.maxPairs = orDefault(desc.max_pairs, 1U),
-                    .readBack = desc.no_read_back == 0,
-                    .timestamps = desc.timestamps != 0,
-                    .queueFamily = desc.queue_family,
-                    .staged = desc.staged != 0,
-                    .into = {desc.into.buffer, desc.into.offset, desc.into.size}};
-    if (desc.clusters_at_once != 0) {
-        out.clustersAtOnce = desc.clusters_at_once == VXT_NO_CLUSTERS ? 0 : desc.clusters_at_once;
-    }
-    if (toOutputs(desc.outputs, kDefaultMaxDepth).any()) {
-        out.room = OutputRoom{desc.triangle_room, desc.label_room, orDefault(desc.contact_room, kDefaultContactRoom)};
-    }
-    return out;
+    return {.maxPairs = orDefault(desc.max_pairs, 1U),
+            .readBack = desc.no_read_back == 0,
+            .timestamps = desc.timestamps != 0,
+            .queueFamily = desc.queue_family,
+            .room = {desc.triangle_room, desc.label_room, orDefault(desc.contact_room, kDefaultContactRoom)},
+            .clustersAtOnce = desc.clusters_at_once,
+            .staged = desc.staged != 0,
+            .into = {desc.into.buffer, desc.into.offset, desc.into.size}};
 }
 
 BufferRange rangeOf(const Results& results, vxt_device_part part) {
@@ -94,10 +89,10 @@ vxt_answer toAnswer(Results& results, std::span<const PairResult> pairs, bool ti
 
 } // namespace
 
-vxt_result vxt_results_create(const vxt_context* context, const vxt_results_desc* desc, vxt_results** results) {
-    return create(context, "context", results, [&](const Context& on) {
+vxt_result vxt_results_create(const vxt_detector* detector, const vxt_results_desc* desc, vxt_results** results) {
+    return create(detector, "detector", results, [&](const Detector& by) {
         const ResultsDesc made = toDesc(desc);
-        return OwnOrSlot{take(Results::create(on, made)), nullptr, made.timestamps};
+        return OwnOrSlot{take(Results::create(by, made)), nullptr, made.timestamps};
     });
 }
 
@@ -136,13 +131,13 @@ void vxt_results_destroy(vxt_results* results) {
     }
 }
 
-vxt_result vxt_result_ring_create(const vxt_context* context, uint32_t frames, const vxt_results_desc* desc,
+vxt_result vxt_result_ring_create(const vxt_detector* detector, uint32_t frames, const vxt_results_desc* desc,
                                   vxt_result_ring** ring) {
-    return create(context, "context", ring, [&](const Context& on) {
+    return create(detector, "detector", ring, [&](const Detector& by) {
         const ResultsDesc made = toDesc(desc);
-        RingAndSlots out{take(ResultRing::create(on, frames, made)), {}};
+        RingAndSlots out{take(ResultRing::create(by, frames, made)), {}};
         for (std::uint32_t i = 0; i < frames; ++i) {
-            out.slots.push_back({{std::nullopt, nullptr, made.timestamps}, context->errors});
+            out.slots.push_back({{std::nullopt, nullptr, made.timestamps}, detector->errors});
         }
         return out;
     });

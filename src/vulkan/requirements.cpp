@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kCore = "VkPhysicalDeviceFeatures";
 constexpr const char* kVulkan13 = "VkPhysicalDeviceVulkan13Features";
-constexpr const char* kNoDevicePoses = "no poses on the device (DetectorDesc::devicePoses)";
+constexpr const char* kNoDevicePoses = "no poses on the device (devicePoses)";
 
 constexpr std::array kRequirements{
     Requirement{"dynamicRendering", kVulkan13, true, "nothing works: every pass is a dynamic rendering"},

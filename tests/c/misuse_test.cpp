@@ -93,10 +93,10 @@ TEST(CMisuse, NullIsRefused) {
         vxt_transfer_function_cmd_upload, vxt_transfer_function_cmd_update, vxt_transfer_function_domain,
         vxt_mesh_create, vxt_mesh_wrap, vxt_mesh_upload, vxt_mesh_cmd_upload, vxt_mesh_cmd_update, vxt_mesh_cmd_copy,
         vxt_mesh_cmd_refit, vxt_mesh_get_facts, vxt_pose_buffer_wrap, vxt_label_map_create, vxt_label_map_upload,
-        vxt_label_map_cmd_upload, vxt_detector_create, vxt_detector_cmd_detect, vxt_detector_boundary_for,
-        vxt_blocking_detector_create, vxt_blocking_detector_detect, vxt_results_create, vxt_results_on_device,
-        vxt_results_cmd_read_back, vxt_results_read, vxt_result_ring_create, vxt_result_ring_begin,
-        vxt_result_ring_read, vxt_answer_counters);
+        vxt_label_map_cmd_upload, vxt_detector_create_certified, vxt_detector_create_raster, vxt_detector_cmd_detect,
+        vxt_detector_boundary_for, vxt_blocking_detector_create_certified, vxt_blocking_detector_create_raster,
+        vxt_blocking_detector_detect, vxt_results_create, vxt_results_on_device, vxt_results_cmd_read_back,
+        vxt_results_read, vxt_result_ring_create, vxt_result_ring_begin, vxt_result_ring_read, vxt_answer_counters);
     // These make an object of nothing else.
     for (const vxt_result result :
          {vxt_answer_create(nullptr), vxt_cancel_create(nullptr), vxt_features_create(nullptr, nullptr),

@@ -31,9 +31,8 @@ struct Objects {
           labels(play.quietly([&] { return LabelMap::create(setting.context, labelData); })),
           detector(play.quietly([&] { return Detector::create(setting.context, kDesc); })),
           blocking(play.quietly([&] { return BlockingDetector::create(setting.context, kDesc, queue); })),
-          results(play.quietly([&] {
-              return Results::create(setting.context, {.timestamps = true, .room = OutputRoom{.triangles = 12}});
-          })),
+          results(
+              play.quietly([&] { return Results::create(detector, {.timestamps = true, .room = {.triangles = 12}}); })),
           trace(play.quietly([&] { return FragmentTrace::create(setting.context, Filter::Hardware, queue); })),
           localizer(play.quietly([&] { return Localizer::create(setting.context, Filter::Hardware, queue); })),
           pictures(play.quietly([&] { return BlockingRenderer::create(setting.context, queue); })),
@@ -55,7 +54,7 @@ struct Objects {
         return out;
     }
     static RenderTransferFunctionDesc colourDesc() { return {.opacity = ramp(), .step = 0.1}; }
-    static constexpr DetectorDesc kDesc{.method = CountingMethod::Atomic, .outputs = {.triangles = true}};
+    static constexpr RasterDesc kDesc{.method = CountingMethod::Atomic, .outputs = {.triangles = true}};
 
     Setting setting;
     QueueAccess queue;
@@ -152,13 +151,13 @@ std::vector<NamedCall> detectCalls(Objects& o, const Own& own) {
         {"Detector::cmdDetect", codeOf(o.detector.cmdDetect(own.commands, batch, o.results))},
         {"BlockingDetector::create", codeOf(BlockingDetector::create(context, Objects::kDesc, o.queue))},
         {"BlockingDetector::detect", codeOf(o.blocking.detect(batch))},
-        {"Results::create", codeOf(Results::create(context, {}))},
+        {"Results::create", codeOf(Results::create(o.detector, {}))},
         {"Results::cmdReadBack", codeOf(o.results.cmdReadBack(own.commands))},
         {"Results::read", codeOf(o.results.read())},
         {"Results::counters", codeOf(o.results.counters())},
         {"Results::readOutputs", codeOf(o.results.readOutputs(answer))},
         {"Results::gpuMilliseconds", codeOf(o.results.gpuMilliseconds())},
-        {"ResultRing::create", codeOf(ResultRing::create(context, 2, {}))},
+        {"ResultRing::create", codeOf(ResultRing::create(o.detector, 2, {}))},
         {"selfTest", codeOf(selfTest(context, o.queue))},
         {"FragmentTrace::create", codeOf(FragmentTrace::create(context, Filter::Hardware, o.queue))},
         {"FragmentTrace::survivors", codeOf(o.trace.survivors(batch))},
@@ -212,7 +211,7 @@ TEST(LostDevice, EveryLaterCallSaysSo) {
                                 Embedder embedder(play.stage());
                                 Objects objects(play);
                                 const Own own(embedder);
-                                const auto lost = Results::create(objects.setting.context, {});
+                                const auto lost = Results::create(objects.detector, {.room = {.triangles = 12}});
                                 EXPECT_EQ(codeOf(lost), ErrorCode::DeviceLost);
                                 EXPECT_TRUE(objects.setting.context.deviceLost());
                                 for (const auto calls : {sceneCalls, detectCalls, renderCalls}) {

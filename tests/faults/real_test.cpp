@@ -84,8 +84,8 @@ TEST_F(RealSweep, Asking) {
     BlockingDetector detector = before.quietly([&] {
         return BlockingDetector::create(
             setting.context,
-            {.method = CountingMethod::Atomic,
-             .outputs = {.triangles = true, .contacts = true, .bounds = true, .labels = true}},
+            RasterDesc{.method = CountingMethod::Atomic,
+                       .outputs = {.triangles = true, .contacts = true, .bounds = true, .labels = true}},
             stage().queue);
     });
     const auto ask = [&](Play& play) {

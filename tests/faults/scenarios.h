@@ -3,6 +3,7 @@
 
 #include "embedder.h"
 #include "play.h"
+#include "support/any_desc.h"
 #include "support/scenes.h"
 #include "voxtact/detector.h"
 

@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint32_t kMostContacts = 20;
 
 /// One detector asked several times: an answer that is another's would be seen. The third batch needs larger Results.
-std::string askThrice(Play& play, const DetectorDesc& desc) {
+std::string askThrice(Play& play, const AnyDesc& desc) {
     const Setting setting(play);
     BlockingDetector detector = play.ask("BlockingDetector::create", [&] {
         return BlockingDetector::create(setting.context, desc, play.stage().queue, kMostContacts);
@@ -30,12 +30,12 @@ std::string askThrice(Play& play, const DetectorDesc& desc) {
     return answers;
 }
 
-std::string nameOf(const DetectorDesc& desc) {
+std::string nameOf(const AnyDesc& desc) {
     return std::string(toString(desc.method)) + " " + toString(desc.projection);
 }
 
-std::vector<DetectorDesc> allWays() {
-    std::vector<DetectorDesc> ways;
+std::vector<AnyDesc> allWays() {
+    std::vector<AnyDesc> ways;
     for (const CountingMethod method : {CountingMethod::Query, CountingMethod::QueryAny, CountingMethod::Atomic,
                                         CountingMethod::Subgroup, CountingMethod::Compute}) {
         for (const Projection projection : {Projection::View, Projection::TwoView, Projection::DominantAxis}) {
@@ -132,7 +132,7 @@ std::string selfTests(Play& play) {
 
 std::vector<Scenario> detectScenarios() {
     std::vector<Scenario> out;
-    for (const DetectorDesc& desc : allWays()) {
+    for (const AnyDesc& desc : allWays()) {
         out.push_back({nameOf(desc), [desc](Play& play) { return askThrice(play, desc); }});
     }
     out.push_back({"compute certified stop-at-first counters", [](Play& play) {
@@ -141,7 +141,7 @@ std::vector<Scenario> detectScenarios() {
                                                .stopAtFirst = true,
                                                .counters = true});
                    }});
-    for (DetectorDesc desc : allWays()) {
+    for (AnyDesc desc : allWays()) {
         // All at once where a method or projection is first seen, one at a time by the rasteriser and certified.
         for (const Outputs& outputs : allOutputs()) {
             const bool all = outputs.triangles && outputs.contacts;

@@ -12,17 +12,13 @@ constexpr std::uint32_t kFrames = 2;
 using Change = std::function<void(Play&, Setting&, Embedder&, VkCommandBuffer, std::uint64_t frame)>;
 
 /// Frames in flight: each changes the scene and asks, and is read while the next one is under way.
-std::string ring(Play& play, const DetectorDesc& desc, const Change& change) {
+std::string ring(Play& play, const AnyDesc& desc, const Change& change) {
     Embedder embedder(play.stage());
     Setting setting(play);
     const Detector detector = play.ask("Detector::create", [&] { return Detector::create(setting.context, desc); });
-    const ResultsDesc room{.maxPairs = 3,
-                           .room = desc.outputs.any()
-                                       ? std::optional(OutputRoom{.triangles = 60, .labels = 1000, .contacts = 9})
-                                       : std::nullopt,
-                           .clustersAtOnce = 16};
-    ResultRing results =
-        play.ask("ResultRing::create", [&] { return ResultRing::create(setting.context, kFrames, room); });
+    const ResultsDesc room{
+        .maxPairs = 3, .room = {.triangles = 60, .labels = 1000, .contacts = 9}, .clustersAtOnce = 16};
+    ResultRing results = play.ask("ResultRing::create", [&] { return ResultRing::create(detector, kFrames, room); });
     std::string answers;
     const auto read = [&](std::uint64_t frame) {
         answers += textOf(play.ask("ResultRing::read", [&] { return results.read(frame); }));
@@ -106,11 +102,10 @@ std::string cmdUploads(Play& play) {
         play.ask("TransferFunction::create", [&] { return TransferFunction::create(setting.context, ramp(222)); });
     Mesh mesh = play.ask("Mesh::create", [&] { return Mesh::create(setting.context, setting.meshData.view()); });
     const Detector detector = play.ask("Detector::create", [&] {
-        return Detector::create(setting.context, {.method = CountingMethod::Compute, .filter = Filter::Exact});
+        return Detector::raster(setting.context, {.method = CountingMethod::Compute, .filter = Filter::Exact});
     });
-    Results results = play.ask("Results::create", [&] {
-        return Results::create(setting.context, {.maxPairs = 2, .timestamps = true, .clustersAtOnce = 0});
-    });
+    Results results =
+        play.ask("Results::create", [&] { return Results::create(detector, {.maxPairs = 2, .timestamps = true}); });
     const VkCommandBuffer commands = embedder.begin();
     play.ask("Volume::cmdUpload", [&] { return volume.cmdUpload(commands); });
     play.ask("TransferFunction::cmdUpload", [&] { return function.cmdUpload(commands); });
@@ -135,11 +130,10 @@ std::string cmdUploads(Play& play) {
 
 std::vector<Scenario> editScenarios() {
     constexpr Outputs kAll{.triangles = true, .contacts = true, .bounds = true, .labels = true};
-    const auto story = [](const char* name, const DetectorDesc& desc, const Change& change) {
+    const auto story = [](const char* name, const AnyDesc& desc, const Change& change) {
         return Scenario{name, [=](Play& play) { return ring(play, desc, change); }};
     };
-    const DetectorDesc certified{
-        .method = CountingMethod::Compute, .projection = Projection::Certified, .outputs = kAll};
+    const AnyDesc certified{.method = CountingMethod::Compute, .projection = Projection::Certified, .outputs = kAll};
     return {
         story("ring query", {.method = CountingMethod::Query}, nothing),
         story("ring atomic outputs", {.method = CountingMethod::Atomic, .outputs = kAll}, nothing),

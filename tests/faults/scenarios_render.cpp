@@ -71,10 +71,9 @@ std::string recorded(Play& play) {
     RenderTransferFunction function = play.ask("RenderTransferFunction::create",
                                                [&] { return RenderTransferFunction::create(renderer, colours(1)); });
     const Detector detector = play.quietly([&] {
-        return Detector::create(setting.context, {.method = CountingMethod::Atomic, .outputs = {.triangles = true}});
+        return Detector::raster(setting.context, {.method = CountingMethod::Atomic, .outputs = {.triangles = true}});
     });
-    Results results = play.quietly(
-        [&] { return Results::create(setting.context, {.room = OutputRoom{.triangles = 12, .contacts = 0}}); });
+    Results results = play.quietly([&] { return Results::create(detector, {.room = {.triangles = 12}}); });
     const PaintedTriangles painted =
         play.ask("PaintedTriangles::wrap", [&] { return PaintedTriangles::wrap(renderer, results.triangleMask()); });
     const VkImageView picture =

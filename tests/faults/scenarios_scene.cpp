@@ -9,10 +9,10 @@ namespace voxtact::test {
 
 namespace {
 
-constexpr DetectorDesc kCertified{.method = CountingMethod::Compute, .projection = Projection::Certified};
+constexpr AnyDesc kCertified{.method = CountingMethod::Compute, .projection = Projection::Certified};
 
 /// What a detector says of a scene, while nothing fails.
-std::string answerOf(Play& play, const Context& context, const BatchItem& item, const DetectorDesc& desc) {
+std::string answerOf(Play& play, const Context& context, const BatchItem& item, const AnyDesc& desc) {
     BlockingDetector detector =
         play.quietly([&] { return BlockingDetector::create(context, desc, play.stage().queue); });
     return textOf(play.quietly([&] { return detector.detect({{&item, 1}, someView(), kThreshold}); }));
@@ -115,7 +115,7 @@ std::string wrap(Play& play) {
     BatchItem moving = item;
     moving.world_from_object = {};
     moving.poses = &onDevice;
-    DetectorDesc byPoses = kCertified;
+    AnyDesc byPoses = kCertified;
     byPoses.devicePoses = true;
     return answerOf(play, setting.context, item, kCertified) +
            answerOf(play, setting.context, item, {.method = CountingMethod::Query}) +

@@ -70,8 +70,7 @@ void GpuTest::TearDown() {
     }
 }
 
-PairAnswer GpuTest::detectOne(const DetectorDesc& desc, const BatchItem& item, const View& view,
-                              double threshold) const {
+PairAnswer GpuTest::detectOne(const AnyDesc& desc, const BatchItem& item, const View& view, double threshold) const {
     BlockingDetector one = detector(desc);
     const BatchAnswer answer = take(one.detect({std::span(&item, 1), view, threshold}));
     EXPECT_EQ(answer.pairs.size(), 1U);

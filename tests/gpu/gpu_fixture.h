@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "support/any_desc.h"
 #include "support/take.h"
 #include "voxtact/detector.h"
 #include "vulkan/own/vulkan_device.h"
@@ -39,11 +40,11 @@ class GpuTest : public testing::Test {
     TransferFunction upload(std::span<const ControlPoint> points, const ValueRange& domain) const {
         return take(TransferFunction::upload(context(), queue(), {points, domain, kDefaultTableSize}));
     }
-    [[nodiscard]] BlockingDetector detector(const DetectorDesc& desc) const {
+    [[nodiscard]] BlockingDetector detector(const AnyDesc& desc) const {
         return take(BlockingDetector::create(context(), desc, queue()));
     }
     /// One pair, by one method.
-    [[nodiscard]] PairAnswer detectOne(const DetectorDesc& desc, const BatchItem& item, const View& view,
+    [[nodiscard]] PairAnswer detectOne(const AnyDesc& desc, const BatchItem& item, const View& view,
                                        double threshold = 0.5) const;
     /// The survivors of one pair, which query and atomic must agree on.
     [[nodiscard]] std::uint64_t survivors(const Mesh& mesh, const Volume& volume, const TransferFunction& function,

@@ -242,10 +242,10 @@ Result<Engines> makeMethodEngines(const device::Session& session, const CompareS
         result.methods.push_back({toString(method), why.empty(), why, toString(defaultFilter(method)),
                                   exactness(method) == Exactness::Exact});
         if (why.empty()) {
-            VOXTACT_TRY(
-                add(engines, rowOf(method).host
-                                 ? makeHostEngine()
-                                 : makeDeviceEngine(session, {.method = method, .filter = defaultFilter(method)})));
+            VOXTACT_TRY(add(engines, rowOf(method).host
+                                         ? makeHostEngine()
+                                         : makeDeviceEngine(session, RasterDesc{.method = method,
+                                                                                .filter = defaultFilter(method)})));
         } else {
             result.notes.push_back(std::string("no ") + toString(method) + " on this device: " + why);
         }

@@ -4,6 +4,7 @@
 #include "bench/engine_bench/parts.h"
 #include "core/base/try.h"
 #include "core/method/method_table.h"
+#include "device/detector/pass_desc.h"
 #include "device/outputs/output_parts.h"
 
 #include <algorithm>
@@ -49,20 +50,35 @@ std::vector<Outputs> oneOutput() {
 }
 
 /// The certified yes or no, the certified count, and the count in the view.
-template <class Desc> std::array<Desc, 3> askedOf(const Desc& desc) {
-    std::array<Desc, 3> asked{desc, desc, desc};
-    asked[0].projection = asked[1].projection = Projection::Certified;
-    asked[0].stopAtFirst = true;
-    asked[2].projection = Projection::View;
-    return asked;
+std::array<Count, 3> askedOfHost() {
+    return {Count{.projection = Projection::Certified, .stopAtFirst = true}, Count{.projection = Projection::Certified},
+            Count{}};
+}
+
+DetectorDesc methodOf(CountingMethod method, Projection projection = Projection::View, const Outputs& outputs = {}) {
+    if (rowOf(projection).certified) {
+        return CertifiedDesc{.outputs = outputs};
+    }
+    return RasterDesc{.method = method, .projection = projection, .filter = defaultFilter(method), .outputs = outputs};
+}
+
+/// Like askedOfHost().
+std::array<DetectorDesc, 3> askedOf(CountingMethod method) {
+    return {CertifiedDesc{.stopAtFirst = true}, CertifiedDesc{}, methodOf(method)};
+}
+
+DetectorDesc withDevicePoses(DetectorDesc desc) {
+    std::visit([](auto& of) { of.devicePoses = true; }, desc);
+    return desc;
 }
 
 bool can(const device::Session* session, CountingMethod method, Projection projection) {
     return session != nullptr && session->context.supports(method, projection);
 }
 
-DetectorDesc methodOf(CountingMethod method) {
-    return {.method = method, .filter = defaultFilter(method)};
+bool can(const device::Session* session, const DetectorDesc& desc) {
+    const PassDesc pass = passDesc(desc);
+    return can(session, pass.method, pass.projection);
 }
 
 /// Projections of the host, and then outputs in two of them.
@@ -82,20 +98,16 @@ Result<void> addHostOutputs(Engines& engines) {
 /// Projections of a method of the device, and then the outputs in one of them.
 Result<void> addDeviceOutputs(const device::Session& session, CountingMethod method, Projection withOutputs,
                               Engines& engines) {
-    DetectorDesc desc = methodOf(method);
     const std::size_t view = engines.size();
     std::size_t bare = view;
     for (const Projection projection : projections()) {
         if (can(&session, method, projection)) {
             bare = projection == withOutputs ? engines.size() : bare;
-            desc.projection = projection;
-            VOXTACT_TRY(add(engines, makeBlockingEngine(session, desc), view));
+            VOXTACT_TRY(add(engines, makeBlockingEngine(session, methodOf(method, projection)), view));
         }
     }
-    desc.projection = withOutputs;
     for (const Outputs& outputs : oneOutput()) {
-        desc.outputs = outputs;
-        VOXTACT_TRY(add(engines, makeBlockingEngine(session, desc), bare, true));
+        VOXTACT_TRY(add(engines, makeBlockingEngine(session, methodOf(method, withOutputs, outputs)), bare, true));
     }
     return {};
 }
@@ -110,14 +122,13 @@ Result<void> addTicks(const device::Session& session, const std::optional<Detect
 
 Result<void> addDeviceTicks(const device::Session& session, Engines& engines) {
     for (const CountingMethod method : countingMethods()) {
-        for (DetectorDesc desc : askedOf(methodOf(method))) {
-            if (rowOf(method).host || !can(&session, method, desc.projection)) {
+        for (const DetectorDesc& desc : askedOf(method)) {
+            if (rowOf(method).host || !can(&session, method, passDesc(desc).projection)) {
                 continue;
             }
             VOXTACT_TRY(addTicks(session, desc, engines));
             if (rowOf(method).coverage == Coverage::Computed) {
-                desc.devicePoses = true;
-                VOXTACT_TRY(addTicks(session, desc, engines));
+                VOXTACT_TRY(addTicks(session, withDevicePoses(desc), engines));
             }
         }
     }
@@ -126,14 +137,14 @@ Result<void> addDeviceTicks(const device::Session& session, Engines& engines) {
 
 /// The first is the host's yes or no on one thread, the second the host's count.
 Result<void> addCertified(const BenchParts& parts, Engines& engines) {
-    const auto host = askedOf(Count{});
+    const auto host = askedOfHost();
     VOXTACT_TRY(add(engines, makeHostEngine(host[0], 1)));
     for (const Count& question : {host[1], host[0], host[2]}) {
         VOXTACT_TRY(add(engines, makeHostEngine(question)));
     }
-    const auto computed = askedOf(methodOf(CountingMethod::Compute));
+    const auto computed = askedOf(CountingMethod::Compute);
     for (const DetectorDesc& desc : {computed[0], computed[1], methodOf(CountingMethod::Query)}) {
-        if (can(parts.session, desc.method, desc.projection)) {
+        if (can(parts.session, desc)) {
             VOXTACT_TRY(add(engines, makeBlockingEngine(*parts.session, desc)));
         }
     }
@@ -167,7 +178,7 @@ Result<void> addLatency(const BenchParts& parts, Engines& engines) {
         VOXTACT_TRY(addTicks(*parts.session, std::nullopt, engines));
     }
     const std::uint32_t threads = std::max(1U, std::thread::hardware_concurrency());
-    for (const Count& question : askedOf(Count{})) {
+    for (const Count& question : askedOfHost()) {
         VOXTACT_TRY(add(engines, makeHostEngine(question, 1)));
         if (threads > 1) {
             VOXTACT_TRY(add(engines, makeHostEngine(question, threads)));
@@ -181,20 +192,19 @@ Result<void> addLatency(const BenchParts& parts, Engines& engines) {
 
 /// The first is the host's certified yes or no, the second its count in the view.
 Result<void> addBatches(const BenchParts& parts, Engines& engines) {
-    const auto host = askedOf(Count{});
+    const auto host = askedOfHost();
     VOXTACT_TRY(add(engines, makeHostEngine(host[0])));
     VOXTACT_TRY(add(engines, makeHostEngine(host[2])));
-    const auto computed = askedOf(methodOf(CountingMethod::Compute));
+    const auto computed = askedOf(CountingMethod::Compute);
     for (const DetectorDesc& desc :
          {computed[0], computed[2], methodOf(CountingMethod::Query), methodOf(CountingMethod::Atomic)}) {
-        if (can(parts.session, desc.method, desc.projection)) {
+        if (can(parts.session, desc)) {
             VOXTACT_TRY(add(engines, makeDeviceEngine(*parts.session, desc)));
         }
     }
-    for (DetectorDesc desc : {computed[0], computed[2]}) {
-        desc.devicePoses = true;
-        if (can(parts.session, desc.method, desc.projection)) {
-            VOXTACT_TRY(add(engines, makeBlockingEngine(*parts.session, desc)));
+    for (const DetectorDesc& desc : {computed[0], computed[2]}) {
+        if (can(parts.session, desc)) {
+            VOXTACT_TRY(add(engines, makeBlockingEngine(*parts.session, withDevicePoses(desc))));
         }
     }
     return {};

@@ -96,8 +96,8 @@ template <class Desc>
 [[nodiscard]] MadeEngine makeHostEngine(const Count& question = {}, std::uint32_t threads = 0);
 /// Creates an engine of a device method; arguments must outlive it.
 [[nodiscard]] MadeEngine makeDeviceEngine(const device::Session& session, const DetectorDesc& desc);
-/// Like above, by BlockingDetector: all pairs in one submission, for any feeding. With DetectorDesc::devicePoses,
-/// writing the poses as floats for the device is part of its time.
+/// Like above, by BlockingDetector: all pairs in one submission, for any feeding. With devicePoses, writing the poses as
+/// floats for the device is part of its time.
 [[nodiscard]] MadeEngine makeBlockingEngine(const device::Session& session, const DetectorDesc& desc);
 /// Wait of the host for the device.
 enum class Awaiting {
@@ -105,7 +105,7 @@ enum class Awaiting {
     Wait, ///< it sleeps until the driver wakes it
 };
 /// A method of the device as a loop that needs its answer now uses it: a submission a pose, of a command buffer that is
-/// recorded each time, with Results of its own and no timestamps. With DetectorDesc::devicePoses it is recorded once,
+/// recorded each time, with Results of its own and no timestamps. With devicePoses it is recorded once,
 /// for the first work that it gets, and the pose, as floats, is written into mapped memory. Without a method: with
 /// nothing in the command buffer, which is recorded once, and without answers: what a submission costs. Whatever the
 /// feeding; nothing is made while it runs.

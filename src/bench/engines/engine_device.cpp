@@ -2,6 +2,7 @@
 #include "bench/engines/engine.h"
 #include "bench/measure/stopwatch.h"
 #include "core/base/try.h"
+#include "device/detector/pass_desc.h"
 #include "device/engine/pair_pipeline.h"
 #include "vulkan/context_impl.h"
 #include "vulkan/memory.h"
@@ -14,6 +15,10 @@
 namespace voxtact::lab {
 
 namespace {
+
+EngineFacts factsOf(const PassDesc& desc) {
+    return lab::factsOf(desc.method, desc, 0);
+}
 
 struct DevicePairs {
     const device::Session& session;
@@ -51,7 +56,7 @@ Result<Pass> runOnDevice(DevicePairs& pairs, const Work& work, const Feeding& fe
     return pass;
 }
 
-/// Poses in mapped memory, as floats, for DetectorDesc::devicePoses.
+/// Poses in mapped memory, as floats, for devicePoses.
 struct MappedPoses {
     ContextImpl& context;
     Buffer buffer;
@@ -100,7 +105,7 @@ Result<void> feed(BlockingPairs& pairs, BatchItem& item) {
 Result<Pass> runBlocking(BlockingPairs& pairs, const Work& work, const Feeding& /*feeding*/) {
     BatchItem item = work.onDevice();
     const Stopwatch watch;
-    if (pairs.detector.detector().desc().devicePoses) {
+    if (passDesc(pairs.detector.detector().desc()).devicePoses) {
         VOXTACT_TRY(feed(pairs, item));
     }
     Result<BatchAnswer> answer = pairs.detector.detect({{&item, 1}, work.view, work.volume->threshold});
@@ -189,7 +194,7 @@ Result<Pass> runTicks(Ticking& loop, const Work& work, const Feeding& /*feeding*
 MadeEngine makeDeviceEngine(const device::Session& session, const DetectorDesc& desc) {
     Result<Detector> detector = Detector::create(session.context, desc);
     VOXTACT_TRY(detector);
-    EngineFacts facts = factsOf(detector->desc().method, detector->desc(), 0);
+    EngineFacts facts = factsOf(passDesc(desc));
     facts.posesOn = "host";
     return engineOf(std::move(facts), DevicePairs{session, std::move(*detector)}, runOnDevice);
 }
@@ -197,28 +202,28 @@ MadeEngine makeDeviceEngine(const device::Session& session, const DetectorDesc& 
 MadeEngine makeBlockingEngine(const device::Session& session, const DetectorDesc& desc) {
     Result<BlockingDetector> detector = BlockingDetector::create(session.context, desc, session.device.queueAccess());
     VOXTACT_TRY(detector);
-    EngineFacts facts = factsOf(desc.method, desc, 0);
-    facts.posesOn = desc.devicePoses ? "device" : "host";
+    const PassDesc pass = passDesc(desc);
+    EngineFacts facts = factsOf(pass);
+    facts.posesOn = pass.devicePoses ? "device" : "host";
     return engineOf(std::move(facts), BlockingPairs{session, std::move(*detector)}, runBlocking);
 }
 
 MadeEngine makeTickEngine(const device::Session& session, const std::optional<DetectorDesc>& desc, Awaiting awaiting) {
     EngineFacts facts{.name = "empty submit", .threads = 0};
     Ticking loop{awaiting};
+    bool devicePoses = false;
     if (desc) {
-        facts = factsOf(desc->method, *desc, 0);
+        const PassDesc pass = passDesc(*desc);
+        devicePoses = pass.devicePoses;
+        facts = factsOf(pass);
         VOXTACT_TRY(put(Detector::create(session.context, *desc), loop.detector));
-        ResultsDesc room;
-        if (desc->projection != Projection::Certified) {
-            room.clustersAtOnce = 0;
-        }
-        VOXTACT_TRY(put(Results::create(session.context, room), loop.results));
+        VOXTACT_TRY(put(Results::create(*loop.detector, {}), loop.results));
     }
-    if (desc && desc->devicePoses) {
+    if (devicePoses) {
         VOXTACT_TRY(put(MappedPoses::create(session, 1), loop.mapped));
     }
     VOXTACT_TRY(put(device::TimedCommands::create(session, 0), loop.commands));
-    facts.recorded = desc && !desc->devicePoses ? "each tick" : "once";
+    facts.recorded = desc && !devicePoses ? "each tick" : "once";
     facts.awaited = awaiting == Awaiting::Poll ? "polled" : "waited";
     return engineOf(std::move(facts), std::move(loop), runTicks);
 }

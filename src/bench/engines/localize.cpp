@@ -6,9 +6,10 @@
 #include "core/base/guard.h"
 #include "core/base/refuse.h"
 #include "core/base/try.h"
-#include "device/count/view.h"
 #include "device/detector/batch.h"
+#include "device/detector/detector_impl.h"
 #include "device/detector/recording.h"
+#include "device/results/result_store.h"
 #include "device/scene/scene_impl.h"
 #include "host/touch/cells/brick_occupancy.h"
 #include "vulkan/barriers.h"
@@ -31,8 +32,8 @@ namespace voxtact {
 struct Localizer::State {
     ContextImpl& context;
     std::shared_ptr<ContextImpl> owner = context.shared_from_this();
-    std::optional<ViewPass> pass{};
-    std::optional<Results> results{}; ///< for the transform and the timestamps; does not count
+    std::optional<Detector> detector{}; ///< whose pass draws
+    std::optional<Results> results{};   ///< for the transform and the timestamps; counts nothing
     Owned<VkQueryPool> queries{};
     std::optional<Submitter> submitter{};
 };
@@ -43,7 +44,7 @@ struct FragmentTrace::State {
     Owned<VkDescriptorSetLayout> setLayout{};
     Owned<VkPipelineLayout> layout{};
     std::optional<ViewPass> pass{};
-    std::optional<Results> results{};
+    std::unique_ptr<ResultsImpl> results{};
     Buffer list{};
     Buffer readBack{};
     DescriptorSet descriptors{};
@@ -55,7 +56,7 @@ namespace {
 /// Queries of a submission.
 constexpr std::uint32_t kQueries = 4096;
 /// Plan for prepareResults() and publishResults(): no queries.
-constexpr DetectorDesc kDesc{.method = CountingMethod::Atomic, .boundary = Boundary::Range};
+constexpr PassDesc kDesc = passDesc(RasterDesc{.method = CountingMethod::Atomic, .boundary = Boundary::Range});
 
 /// Refuses a batch that is not of one pair.
 Result<void> checkOnePair(const ContextImpl& context, const Batch& batch, const char* what) {
@@ -135,7 +136,8 @@ Result<std::vector<std::uint64_t>> count(Localizer::State& localizer, const Batc
         const Label label(context, *commandBuffer, "voxtact localize");
         VOXTACT_TRY(prepareResults(context, *commandBuffer, batch, results, kDesc));
         context.vk.CmdResetQueryPool(*commandBuffer, localizer.queries.get(), 0, queries);
-        localizer.pass->recordTriangles(*commandBuffer, batch, results, triangles, localizer.queries.get());
+        std::get<ViewPass>(localizer.detector->impl().pass)
+            .recordTriangles(*commandBuffer, batch, results, triangles, localizer.queries.get());
         publishResults(context, *commandBuffer, results, kDesc);
     }
     VOXTACT_TRY(localizer.submitter->submitAndWait());
@@ -220,7 +222,7 @@ Result<void> reserve(FragmentTrace::State& trace, std::uint32_t capacity) {
 
 Result<void> record(FragmentTrace::State& trace, VkCommandBuffer commandBuffer, const Batch& batch) {
     ContextImpl& context = trace.context;
-    ResultsImpl& results = trace.results->impl();
+    ResultsImpl& results = *trace.results;
     const Label label(context, commandBuffer, "voxtact fragment trace");
     results.pairs = 1;
     const std::uint32_t zero = 0;
@@ -286,11 +288,11 @@ Result<Localizer> Localizer::create(const Context& context, Filter filter, const
         }
         const auto state = std::make_shared<State>(State{.context = c});
         VOXTACT_TRY(lab::put(Submitter::create(c, queue), state->submitter));
-        VOXTACT_TRY(lab::put(ViewPass::create(c, {.method = CountingMethod::Query, .filter = filter}), state->pass));
-        VOXTACT_TRY(lab::put(Results::create(context, {.maxPairs = 1,
-                                                       .readBack = false,
-                                                       .timestamps = c.timestampBits(queue.family) > 0,
-                                                       .queueFamily = queue.family}),
+        VOXTACT_TRY(lab::put(Detector::raster(context, {.filter = filter}), state->detector));
+        VOXTACT_TRY(lab::put(Results::create(*state->detector, {.maxPairs = 1,
+                                                                .readBack = false,
+                                                                .timestamps = c.timestampBits(queue.family) > 0,
+                                                                .queueFamily = queue.family}),
                              state->results));
         VOXTACT_TRY(
             lab::put(makeQueryPool(c, VK_QUERY_TYPE_OCCLUSION, kQueries, "queries of triangles"), state->queries));
@@ -319,7 +321,7 @@ Result<FragmentTrace> FragmentTrace::create(const Context& context, Filter filte
         VOXTACT_TRY(lab::put(Submitter::create(c, queue), state->submitter));
         VOXTACT_TRY(makeLayouts(*state));
         VOXTACT_TRY(lab::put(ViewPass::createTrace(c, filter, state->layout.get()), state->pass));
-        VOXTACT_TRY(lab::put(Results::create(context, {.maxPairs = 1, .readBack = false}), state->results));
+        VOXTACT_TRY(lab::put(makeResults(c, kDesc, {.maxPairs = 1, .readBack = false}), state->results));
         VOXTACT_TRY(reserve(*state, kFirstCapacity));
         return FragmentTrace(state);
     });

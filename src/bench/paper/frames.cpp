@@ -178,11 +178,6 @@ Result<void> PaperFrames::createPicture() {
 
 Result<void> PaperFrames::create() {
     VOXTACT_TRY(createPicture());
-    VOXTACT_TRY(put(Results::create(session.context, {.maxPairs = 1,
-                                                      .readBack = true,
-                                                      .timestamps = session.device.hasTimestamps(),
-                                                      .queueFamily = session.device.queueAccess().family}),
-                    results));
     return put(device::TimedCommands::create(session, kFrameStamps), commands);
 }
 
@@ -190,8 +185,13 @@ Result<void> PaperFrames::add(CountingMethod method) {
     if (rowOf(method).host) {
         return put(makeHostEngine(), host);
     }
-    Result<Detector> detector = Detector::create(session.context, {.method = method, .filter = defaultFilter(method)});
+    Result<Detector> detector = Detector::raster(session.context, {.method = method, .filter = defaultFilter(method)});
     VOXTACT_TRY(detector);
+    if (!results) {
+        VOXTACT_TRY(put(Results::create(*detector, {.timestamps = session.device.hasTimestamps(),
+                                                    .queueFamily = session.device.queueAccess().family}),
+                        results));
+    }
     detectors.emplace(method, std::move(*detector));
     return {};
 }

@@ -54,18 +54,17 @@ struct DeviceScene {
 class DeviceEngine : public PairEngine {
   public:
     DeviceEngine(const PairOptions& options, const PairInputs& inputs, const device::Session& session,
-                 const DetectorDesc& desc, const DeviceScene& scene, device::PairPipeline& pipeline,
-                 std::uint32_t pairs)
-        : options_(options), inputs_(inputs), session_(session), desc_(desc), scene_(scene), pipeline_(pipeline),
+                 CountingMethod method, const DeviceScene& scene, device::PairPipeline& pipeline, std::uint32_t pairs)
+        : options_(options), inputs_(inputs), session_(session), method_(method), scene_(scene), pipeline_(pipeline),
           shelf_(options.jobs, kMaxVolumeBytes), pace_(pairs, options.batch.has_value() || options.timing) {}
 
     [[nodiscard]] std::string device() const override { return session_.device.physical().name; }
     [[nodiscard]] std::string driver() const override { return session_.device.physical().driver; }
     [[nodiscard]] PairAnswer untouched() const override {
         PairAnswer answer;
-        answer.exactness = options_.question == Question::Touch ? Exactness::LowerBound : exactness(desc_.method);
-        answer.method = desc_.method;
-        answer.projection = desc_.projection;
+        answer.exactness = options_.question == Question::Touch ? Exactness::LowerBound : exactness(method_);
+        answer.method = method_;
+        answer.projection = *options_.method.projection;
         return answer;
     }
     [[nodiscard]] Result<Grid> use(std::uint32_t job) override;
@@ -80,7 +79,7 @@ class DeviceEngine : public PairEngine {
     const PairOptions& options_;
     const PairInputs& inputs_;
     const device::Session& session_;
-    const DetectorDesc& desc_;
+    CountingMethod method_;
     const DeviceScene& scene_;
     device::PairPipeline& pipeline_;
     VolumeShelf<DeviceVolume> shelf_;
@@ -93,8 +92,9 @@ Result<DeviceVolume> DeviceEngine::make(std::uint32_t number) const {
     const Result<VolumeData> data = loadVolume(source, {.resample = options_.resample});
     VOXTACT_TRY(data);
     const QueueAccess queue = session_.device.queueAccess();
-    Result<Volume> volume = Volume::upload(session_.context, queue, data->view(),
-                                           {.name = source.c_str(), .bricks = rowOf(desc_.projection).certified});
+    Result<Volume> volume =
+        Volume::upload(session_.context, queue, data->view(),
+                       {.name = source.c_str(), .bricks = rowOf(*options_.method.projection).certified});
     VOXTACT_TRY(volume);
     const VolumeSettings settings =
         settingsFor(options_, inputs_, number, *data, volume->valueRange().value_or(ValueRange{}));
@@ -128,17 +128,18 @@ Result<void> DeviceEngine::answer(const Window& window, WindowRows& rows, const 
 }
 
 DetectorDesc descOf(const PairOptions& options, CountingMethod method) {
-    DetectorDesc desc;
-    desc.method = method;
-    desc.projection = *options.method.projection;
-    desc.filter = options.method.filter.value_or(defaultFilter(method));
-    desc.boundary = options.method.boundary;
-    desc.outputs = options.extra.outputs();
-    desc.samplesPerVoxel = options.method.samplesPerVoxel.value_or(kDefaultSamplesPerVoxel);
-    desc.resolution = options.method.resolution.value_or(kDefaultResolution);
-    desc.stopAtFirst = options.question == Question::Touch && rowOf(desc.projection).certified;
-    desc.counters = options.stats;
-    return desc;
+    if (rowOf(*options.method.projection).certified) {
+        return CertifiedDesc{.resolution = options.method.resolution.value_or(kDefaultResolution),
+                             .outputs = options.extra.outputs(),
+                             .stopAtFirst = options.question == Question::Touch,
+                             .counters = options.stats};
+    }
+    return RasterDesc{.method = method,
+                      .projection = *options.method.projection,
+                      .filter = options.method.filter.value_or(defaultFilter(method)),
+                      .boundary = options.method.boundary,
+                      .outputs = options.extra.outputs(),
+                      .samplesPerVoxel = options.method.samplesPerVoxel.value_or(kDefaultSamplesPerVoxel)};
 }
 
 /// Limits size and number of submissions, so that additional outputs stay within their memory.
@@ -152,12 +153,9 @@ device::PipelineDesc pipelineDescOf(const PairOptions& options, const PairInputs
         pairsPerBatch(options, inputs, desc.frames),
         std::clamp<std::uint64_t>(inputs.pairs(options.jobs).value_or(kDefaultBatch), 1, kWindowPairs)));
     desc.timestamps = options.timing;
-    if (outputs.any()) {
-        desc.room = OutputRoom{
-            .triangles = outputs.triangles ? desc.pairsPerSubmission * maxTriangles(inputs) : 0,
-            .labels = outputs.labels ? desc.pairsPerSubmission * std::uint64_t{inputs.labels->values.size()} : 0,
-            .contacts = outputs.contacts ? options.extra.contactRoom() : 0};
-    }
+    desc.room = {.triangles = desc.pairsPerSubmission * maxTriangles(inputs),
+                 .labels = inputs.labels ? desc.pairsPerSubmission * std::uint64_t{inputs.labels->values.size()} : 0,
+                 .contacts = options.extra.contactRoom()};
     return desc;
 }
 
@@ -197,7 +195,7 @@ Result<void> withDeviceEngine(const PairOptions& options, const PairInputs& inpu
     if (!pipeline.ok()) {
         return blameContacts(pipeline.error(), options);
     }
-    DeviceEngine engine(options, inputs, session, detector->desc(), *scene, *pipeline, desc.pairsPerSubmission);
+    DeviceEngine engine(options, inputs, session, method, *scene, *pipeline, desc.pairsPerSubmission);
     return answer(engine);
 }
 

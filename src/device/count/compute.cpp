@@ -16,7 +16,7 @@
 
 namespace voxtact {
 
-Result<ComputePass> ComputePass::create(ContextImpl& context, const DetectorDesc& desc) {
+Result<ComputePass> ComputePass::create(ContextImpl& context, const PassDesc& desc) {
     ComputePass pass(context, desc);
     const ShaderConstant constants[] = {
         {VOXTACT_CONSTANT_EXACT_FILTER, desc.filter == Filter::Exact ? 1U : 0U},

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "device/detector/pass_desc.h"
 #include "device/results/results_impl.h"
 #include "exact/shared.h"
-#include "voxtact/detector.h"
 #include "vulkan/pipeline.h"
 
 namespace voxtact {
@@ -11,7 +11,7 @@ namespace voxtact {
 /// The pass of the counting method `compute`: a work group for every VOXTACT_COMPUTE_GROUP triangles of a pair.
 class ComputePass {
   public:
-    [[nodiscard]] static Result<ComputePass> create(ContextImpl& context, const DetectorDesc& desc);
+    [[nodiscard]] static Result<ComputePass> create(ContextImpl& context, const PassDesc& desc);
 
     /// What a checked batch can still ask too much of: a viewport or a mesh beyond what the pass can do.
     [[nodiscard]] Result<void> check(const Batch& batch) const;
@@ -29,14 +29,14 @@ class ComputePass {
     }
 
   private:
-    ComputePass(ContextImpl& context, const DetectorDesc& desc) noexcept : context_(&context), desc_(desc) {}
+    ComputePass(ContextImpl& context, const PassDesc& desc) noexcept : context_(&context), desc_(desc) {}
 
     void recordItem(VkCommandBuffer commandBuffer, const Batch& batch, const BatchItem& item, Boundary boundary,
                     std::uint32_t firstPair, const ResultsImpl& results) const;
     [[nodiscard]] shader::ComputeConstants constantsOf(const Batch& batch, const BatchItem& item) const;
 
     ContextImpl* context_;
-    DetectorDesc desc_;
+    PassDesc desc_;
     VkPipeline pipeline_ = VK_NULL_HANDLE;
 };
 

@@ -56,8 +56,8 @@ double dominantPixelsOfUnit(const Grid& grid, const Mat4& texture_from_object, V
 
 } // namespace
 
-PixelSlices::PixelSlices(const ContextImpl& context, const DetectorDesc& desc, const Batch& batch,
-                         const BatchItem& item, VkExtent2D viewport) noexcept
+PixelSlices::PixelSlices(const ContextImpl& context, const PassDesc& desc, const Batch& batch, const BatchItem& item,
+                         VkExtent2D viewport) noexcept
     : viewport_(static_cast<double>(viewport.width) * viewport.height),
       most_(context.limits.maxComputeWorkGroupCount[2]) {
     const MeshImpl& mesh = item.mesh->impl();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "voxtact/detector.h"
+#include "device/detector/pass_desc.h"
 #include "vulkan/context_impl.h"
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace voxtact {
 class PixelSlices {
   public:
     /// Of a checked item, whose pairs are seen in a viewport of that size.
-    PixelSlices(const ContextImpl& context, const DetectorDesc& desc, const Batch& batch, const BatchItem& item,
+    PixelSlices(const ContextImpl& context, const PassDesc& desc, const Batch& batch, const BatchItem& item,
                 VkExtent2D viewport) noexcept;
 
     /// Of the triangles of a work group.

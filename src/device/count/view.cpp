@@ -70,7 +70,7 @@ Result<void> ViewPass::makePipelines(std::span<const std::uint32_t> fragment, Vk
     return {};
 }
 
-Result<ViewPass> ViewPass::create(ContextImpl& context, const DetectorDesc& desc) {
+Result<ViewPass> ViewPass::create(ContextImpl& context, const PassDesc& desc) {
     ViewPass pass(context, desc);
     const bool outputs = desc.outputs.any();
     const std::string name = toString(desc.method) + std::string(outputs ? " outputs" : "");
@@ -84,7 +84,7 @@ Result<ViewPass> ViewPass::create(ContextImpl& context, const DetectorDesc& desc
 
 Result<ViewPass> ViewPass::createTrace(ContextImpl& context, Filter filter, VkPipelineLayout layout) {
     // A method that draws an item as one: the list has no use for carries, so both variants are the same.
-    ViewPass pass(context, {.method = CountingMethod::Atomic, .filter = filter});
+    ViewPass pass(context, passDesc(RasterDesc{.method = CountingMethod::Atomic, .filter = filter}));
     VOXTACT_TRY(pass.makePipelines(spirv::view_trace_frag, layout, true, "trace"));
     return pass;
 }

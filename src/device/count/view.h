@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/method/method_table.h"
+#include "device/detector/pass_desc.h"
 #include "device/results/results_impl.h"
-#include "voxtact/detector.h"
 #include "vulkan/context_impl.h"
 #include "vulkan/pipeline.h"
 
@@ -15,7 +15,7 @@ namespace voxtact {
 /// side), or each triangle along its dominant axis. One fragment program for all counting methods of the raster path.
 class ViewPass {
   public:
-    [[nodiscard]] static Result<ViewPass> create(ContextImpl& context, const DetectorDesc& desc);
+    [[nodiscard]] static Result<ViewPass> create(ContextImpl& context, const PassDesc& desc);
     /// The same draws with a fragment shader that lists survivors instead of counting them. `layout` extends
     /// ContextImpl::rasterLayout by sets that the caller binds.
     [[nodiscard]] static Result<ViewPass> createTrace(ContextImpl& context, Filter filter, VkPipelineLayout layout);
@@ -47,7 +47,7 @@ class ViewPass {
                          std::span<const std::uint32_t> triangles, VkQueryPool queries) const;
 
   private:
-    ViewPass(ContextImpl& context, const DetectorDesc& desc) noexcept : context_(&context), desc_(desc) {}
+    ViewPass(ContextImpl& context, const PassDesc& desc) noexcept : context_(&context), desc_(desc) {}
 
     [[nodiscard]] Result<void> makePipelines(std::span<const std::uint32_t> fragmentSpirv, VkPipelineLayout layout,
                                              bool withCarry, const std::string& name);
@@ -75,7 +75,7 @@ class ViewPass {
                   std::uint32_t triangles, std::uint32_t firstView, std::uint32_t views) const;
 
     ContextImpl* context_;
-    DetectorDesc desc_;
+    PassDesc desc_;
     std::array<std::array<Owned<VkPipeline>, 2>, 2> pipelines_; ///< [range test][carry]; no carry for queries
 };
 

@@ -31,7 +31,7 @@ Result<void> checkDevicePoses(const ContextImpl& context, const BatchItem& item,
         return item.poseCount ? Result<void>(refuse(which + ": poseCount is of poses, which is null")) : Result<void>();
     }
     if (!devicePoses) {
-        return refuse(which + " has poses on the device; the detector was made without DetectorDesc::devicePoses");
+        return refuse(which + " has poses on the device; the detector was made without devicePoses");
     }
     if (&item.poses->impl().context != &context) {
         return refuse(which + ": poses belongs to another Context");
@@ -48,7 +48,7 @@ Result<void> checkDevicePoses(const ContextImpl& context, const BatchItem& item,
 
 struct DeviceSide {
     const ContextImpl& context;
-    bool devicePoses;   ///< DetectorDesc::devicePoses
+    bool devicePoses;   ///< devicePoses
     bool draws;         ///< vertices are the input of a draw
     bool readsVertices; ///< vertices are pulled from a storage buffer
     Filter filter;
@@ -93,12 +93,11 @@ struct DeviceSide {
 
 } // namespace
 
-Result<std::uint32_t> checkBatch(const ContextImpl& context, const DetectorDesc& desc, const Batch& batch) {
+Result<std::uint32_t> checkBatch(const ContextImpl& context, const PassDesc& desc, const Batch& batch) {
     const bool rasterised = rowOf(desc.method).coverage == Coverage::Rasteriser;
     const bool pulls = rowOf(desc.projection).voxelGrid;
-    const Filter filter = rowOf(desc.projection).certified ? Filter::Exact : desc.filter;
     return checkBatch(desc.projection, desc.samplesPerVoxel, batch,
-                      DeviceSide{context, desc.devicePoses, rasterised && !pulls, rasterised && pulls, filter});
+                      DeviceSide{context, desc.devicePoses, rasterised && !pulls, rasterised && pulls, desc.filter});
 }
 
 std::size_t BatchItem::pairs() const noexcept {
@@ -127,7 +126,7 @@ shader::ItemConstants itemConstants(const BatchItem& item, Filter filter, double
     return constants;
 }
 
-VkExtent2D viewportOf(const DetectorDesc& desc, const Batch& batch, const BatchItem& item) noexcept {
+VkExtent2D viewportOf(const PassDesc& desc, const Batch& batch, const BatchItem& item) noexcept {
     if (rowOf(desc.projection).voxelGrid) {
         const auto side = static_cast<std::uint32_t>(dominantSide(item.volume->grid(), desc.samplesPerVoxel));
         return {side, side};
@@ -142,7 +141,7 @@ Result<void> checkStorage(const BatchItem& item, const char* what) {
     return {};
 }
 
-bool needsCarry(const DetectorDesc& desc, const Batch& batch, const BatchItem& item) noexcept {
+bool needsCarry(const PassDesc& desc, const Batch& batch, const BatchItem& item) noexcept {
     const VkExtent2D viewport = viewportOf(desc, batch, item);
     const double most = static_cast<double>(viewport.width) * viewport.height * item.mesh->triangles();
     return most * viewsPerPair(desc.projection) >= 4294967296.0;

@@ -3,8 +3,8 @@
 #include "core/base/live.h"
 #include "core/base/try.h"
 #include "core/method/method_table.h"
+#include "device/detector/detector_impl.h"
 #include "device/detector/many_poses.h"
-#include "device/detector/pair_setup.h"
 #include "device/results/results_impl.h"
 #include "voxtact/detector.h"
 #include "vulkan/context_impl.h"
@@ -16,7 +16,6 @@
 namespace voxtact {
 
 struct BlockingDetector::State {
-    ContextImpl& context;
     Detector detector;
     std::optional<Detector> forMany; ///< forManyPoses(), from the first such batch on
     bool noForMany = false;          ///< that one cannot be made; the other is as right
@@ -46,21 +45,19 @@ std::uint64_t pairsOf(const Batch& batch) {
 }
 
 /// What to make the Results with where those at hand have no room for a batch. What was large enough stays so.
-std::optional<ResultsDesc> largerFor(const Batch& batch, const ResultsDesc& desc,
+std::optional<ResultsDesc> largerFor(const Batch& batch, const Outputs& outputs, const ResultsDesc& desc,
                                      const std::optional<Results>& results) {
     const std::uint64_t pairs = pairsOf(batch);
-    const OutputRoom needed = desc.room ? roomFor(batch) : OutputRoom{};
-    if (results && results->maxPairs() >= pairs &&
-        (!desc.room || (desc.room->triangles >= needed.triangles && desc.room->labels >= needed.labels))) {
+    const OutputRoom needed = roomFor(batch, outputs);
+    if (results && results->maxPairs() >= pairs && desc.room.triangles >= needed.triangles &&
+        desc.room.labels >= needed.labels) {
         return std::nullopt;
     }
     ResultsDesc wanted = desc;
     wanted.maxPairs = static_cast<std::uint32_t>(
         std::clamp<std::uint64_t>(pairs, results ? results->maxPairs() : kFewestPairs, UINT32_MAX));
-    if (wanted.room) {
-        wanted.room->triangles = std::max(wanted.room->triangles, needed.triangles);
-        wanted.room->labels = std::max(wanted.room->labels, needed.labels);
-    }
+    wanted.room.triangles = std::max(desc.room.triangles, needed.triangles);
+    wanted.room.labels = std::max(desc.room.labels, needed.labels);
     return wanted;
 }
 
@@ -77,12 +74,12 @@ std::vector<PairAnswer> unpackAll(std::span<const PairResult> results) {
 
 Result<const Detector*> BlockingDetector::State::detectorFor(const Batch& batch) {
     const std::optional<DetectorDesc> many =
-        noForMany || hasDevicePoses(batch) ? std::nullopt : forManyPoses(context, detector.desc(), pairsOf(batch));
+        noForMany || hasDevicePoses(batch) ? std::nullopt : forManyPoses(detector.impl(), pairsOf(batch));
     if (!many) {
         return &detector;
     }
     if (!forMany) {
-        Result<Detector> made = Detector::create(context, *many);
+        Result<Detector> made = Detector::create(detector.impl().context, *many);
         if (!made.ok() && doesWithout(made.error())) {
             noForMany = true;
             return &detector;
@@ -103,20 +100,14 @@ Result<BlockingDetector> BlockingDetector::create(const Context& context, const 
     return guard([&]() -> Result<BlockingDetector> {
         Result<Detector> detector = Detector::create(context, desc);
         VOXTACT_TRY(detector);
-        Result<Submitter> submitter = Submitter::create(context.impl(), queue, queueOf(desc.method));
+        Result<Submitter> submitter = Submitter::create(context.impl(), queue, queueOf(detector->impl().desc.method));
         VOXTACT_TRY(submitter);
-        ResultsDesc resultsDesc;
-        resultsDesc.timestamps = context.impl().timestampBits(queue.family) > 0;
-        resultsDesc.queueFamily = queue.family;
-        if (!rowOf(desc.projection).certified) {
-            resultsDesc.clustersAtOnce = 0;
-        }
-        resultsDesc.staged = true; // each submission is waited for
-        if (desc.outputs.any()) {
-            resultsDesc.room = OutputRoom{.contacts = desc.outputs.contacts ? mostContacts : 0};
-        }
-        return BlockingDetector(std::make_unique<State>(State{context.impl(), std::move(*detector), std::nullopt, false,
-                                                              resultsDesc, std::nullopt, std::move(*submitter)}));
+        const ResultsDesc resultsDesc{.timestamps = context.impl().timestampBits(queue.family) > 0,
+                                      .queueFamily = queue.family,
+                                      .room = {.triangles = 1, .labels = 1, .contacts = mostContacts},
+                                      .staged = true}; // each submission is waited for
+        return BlockingDetector(std::make_unique<State>(
+            State{std::move(*detector), std::nullopt, false, resultsDesc, std::nullopt, std::move(*submitter)}));
     });
 }
 
@@ -127,9 +118,10 @@ Result<BatchAnswer> BlockingDetector::detect(const Batch& batch) {
         // First of all: a submission whose wait failed may still be using the Results.
         const Result<VkCommandBuffer> commandBuffer = s.submitter.begin();
         VOXTACT_TRY(commandBuffer);
-        if (const std::optional<ResultsDesc> wanted = largerFor(batch, s.resultsDesc, s.results)) {
+        if (const std::optional<ResultsDesc> wanted =
+                largerFor(batch, s.detector.impl().desc.outputs, s.resultsDesc, s.results)) {
             Result<Results> larger = stagedWhereThereIsRoom(
-                *wanted, [&](const ResultsDesc& desc) { return Results::create(s.context, desc); });
+                *wanted, [&](const ResultsDesc& desc) { return Results::create(s.detector, desc); });
             VOXTACT_TRY(larger);
             s.results = std::move(*larger);
             s.resultsDesc = *wanted;

@@ -8,34 +8,21 @@
 #include "core/geometry/projection.h"
 #include "core/method/method_table.h"
 #include "core/transfer/opaque_ranges.h"
-#include "device/count/compute.h"
-#include "device/count/view.h"
 #include "device/detector/batch.h"
+#include "device/detector/detector_impl.h"
 #include "device/detector/recording.h"
 #include "device/outputs/outputs.h"
 #include "device/scene/scene_impl.h"
-#include "device/touch/certified.h"
 #include "vulkan/debug.h"
 
 #include <algorithm>
 #include <cmath>
-#include <variant>
 
 namespace voxtact {
 
-using AnyPass = std::variant<ViewPass, ComputePass, CertifiedPass>;
-
-struct DetectorImpl {
-    ContextImpl& context;
-    std::shared_ptr<ContextImpl> owner = context.shared_from_this();
-    DetectorDesc desc;
-    AnyPass pass;
-    std::optional<PairSetup> setup{}; ///< with DetectorDesc::devicePoses
-};
-
 namespace {
 
-std::string labelOf(const DetectorDesc& desc, std::uint32_t pairs) {
+std::string labelOf(const PassDesc& desc, std::uint32_t pairs) {
     return std::string("voxtact detect ") + toString(desc.projection) + "/" + toString(desc.method) + ", " +
            std::to_string(pairs) + " pairs";
 }
@@ -70,7 +57,7 @@ Result<void> checkMethod(const ContextImpl& context, CountingMethod method) {
     return refuse("there is no counting method number " + std::to_string(static_cast<std::uint32_t>(method)));
 }
 
-Result<void> checkOverestimate(const ContextImpl& context, const DetectorDesc& desc) {
+Result<void> checkOverestimate(const ContextImpl& context, const PassDesc& desc) {
     if (!desc.overestimate) {
         return {};
     }
@@ -88,30 +75,19 @@ Result<void> checkOverestimate(const ContextImpl& context, const DetectorDesc& d
     return {};
 }
 
-Result<void> checkDesc(const ContextImpl& context, const DetectorDesc& desc) {
+Result<void> checkDesc(const ContextImpl& context, const PassDesc& desc) {
     for (const Result<void>& known :
          {checkProjection(desc.projection), checkFilter(desc.filter), checkBoundary(desc.boundary)}) {
         if (!known.ok()) {
             return known;
         }
     }
-    const ProjectionRow& projection = rowOf(desc.projection);
-    if (!answers(desc.method, desc.projection)) {
-        return refuse(std::string("the projection ") + projection.name + " is answered by the counting methods " +
-                      methodNames([](const MethodRow& row) { return row.certified; }) + ", not by " +
-                      toString(desc.method));
-    }
-    if (const char* control = missingFloatControl(context.floatControls); projection.certified && control != nullptr) {
+    if (const char* control = missingFloatControl(context.floatControls);
+        rowOf(desc.projection).certified && control != nullptr) {
         return Error{ErrorCode::Unsupported, 0,
                      std::string("the projection certified cannot be had by compute on this device: its "
                                  "VkPhysicalDeviceFloatControlsProperties do not report ") +
                          control + "; the host engine (voxtact/cpu.h) has it"};
-    }
-    if (desc.counters && !projection.certified) {
-        return refuse(std::string("counters are of the projection certified, not of ") + projection.name);
-    }
-    if (desc.stopAtFirst && !projection.certified) {
-        return refuse("to stop at the first survivor is for the projection certified; a boolean query is query-any");
     }
     VOXTACT_TRY(checkFact(factOf("count", "resolution"), desc.resolution));
     VOXTACT_TRY(checkSamples(desc.samplesPerVoxel));
@@ -145,9 +121,11 @@ std::uint32_t roundsOf(const AnyPass& any, const Batch& batch, const ResultsImpl
 }
 
 template <class Pass>
-Result<std::unique_ptr<DetectorImpl>> withPass(ContextImpl& context, const DetectorDesc& desc, Result<Pass> pass) {
+Result<std::unique_ptr<DetectorImpl>> withPass(ContextImpl& context, const DetectorDesc& given, const PassDesc& desc) {
+    Result<Pass> pass = Pass::create(context, desc);
     VOXTACT_TRY(pass);
-    return std::make_unique<DetectorImpl>(DetectorImpl{.context = context, .desc = desc, .pass = std::move(*pass)});
+    return std::make_unique<DetectorImpl>(
+        DetectorImpl{.context = context, .given = given, .desc = desc, .pass = std::move(*pass)});
 }
 
 } // namespace
@@ -157,20 +135,33 @@ Detector::Detector(Detector&&) noexcept = default;
 Detector& Detector::operator=(Detector&&) noexcept = default;
 Detector::~Detector() = default;
 
+Result<Detector> Detector::certified(const Context& context, const CertifiedDesc& desc) {
+    return create(context.impl(), desc);
+}
+
+Result<Detector> Detector::raster(const Context& context, const RasterDesc& desc) {
+    return create(context.impl(), desc);
+}
+
 Result<Detector> Detector::create(const Context& context, const DetectorDesc& desc) {
     return create(context.impl(), desc);
 }
 
-Result<Detector> Detector::create(ContextImpl& c, const DetectorDesc& desc) {
+Result<Detector> Detector::create(ContextImpl& c, const DetectorDesc& given) {
     return guard([&]() -> Result<Detector> {
         VOXTACT_TRY(c.alive());
+        const PassDesc desc = passDesc(given);
         VOXTACT_TRY(checkMethod(c, desc.method));
         VOXTACT_TRY(checkDesc(c, desc));
+        const bool certified = rowOf(desc.projection).certified;
+        if (certified && std::holds_alternative<RasterDesc>(given)) {
+            return refuse("RasterDesc::projection is certified; make a certified detector with Detector::certified()");
+        }
         VOXTACT_TRY(checkOutputs(c, desc));
-        Result<std::unique_ptr<DetectorImpl>> impl =
-            rowOf(desc.projection).certified                    ? withPass(c, desc, CertifiedPass::create(c, desc))
-            : rowOf(desc.method).coverage == Coverage::Computed ? withPass(c, desc, ComputePass::create(c, desc))
-                                                                : withPass(c, desc, ViewPass::create(c, desc));
+        Result<std::unique_ptr<DetectorImpl>> impl = certified ? withPass<CertifiedPass>(c, given, desc)
+                                                     : rowOf(desc.method).coverage == Coverage::Computed
+                                                         ? withPass<ComputePass>(c, given, desc)
+                                                         : withPass<ViewPass>(c, given, desc);
         VOXTACT_TRY(impl);
         if (desc.devicePoses) {
             Result<PairSetup> setup = PairSetup::create(c, desc);
@@ -189,6 +180,10 @@ Result<void> Detector::cmdDetect(VkCommandBuffer commandBuffer, const Batch& bat
         if (&slot.context != &context) {
             return refuse("the Results belong to another Context");
         }
+        if (slot.certified != rowOf(live(impl_).desc.projection).certified) {
+            return refuse(slot.certified ? "the Results are of a certified detector, and this one is not certified"
+                                         : "the detector is certified, and the Results are not of a certified one");
+        }
         const Result<std::uint32_t> pairs = checkBatch(context, live(impl_).desc, batch);
         VOXTACT_TRY(pairs);
         if (*pairs > slot.maxPairs) {
@@ -201,12 +196,6 @@ Result<void> Detector::cmdDetect(VkCommandBuffer commandBuffer, const Batch& bat
                          "the batch has " + std::to_string(*pairs) + " pairs, the Results have room for " +
                              std::to_string(slot.maxTransforms / (transforms / *pairs)) + " by the projection " +
                              toString(live(impl_).desc.projection) + " within the device's maxStorageBufferRange"};
-        }
-        if (rowOf(live(impl_).desc.projection).certified && slot.queueRoom == 0) {
-            return Error{ErrorCode::LimitExceeded, 0,
-                         "the Results, for " + std::to_string(slot.maxPairs) +
-                             " pairs, have no queues for the projection certified: ResultsDesc::clustersAtOnce is 0, "
-                             "or the device's maxStorageBufferRange has no room for them in addition to the pairs"};
         }
         VOXTACT_TRY(checkOutputs(context, batch, live(impl_).desc.outputs, slot));
         VOXTACT_TRY(checkPass(live(impl_).pass, batch));
@@ -235,7 +224,7 @@ Result<void> Detector::cmdDetect(VkCommandBuffer commandBuffer, const Batch& bat
 }
 
 const DetectorDesc& Detector::desc() const noexcept {
-    return live(impl_).desc;
+    return live(impl_).given;
 }
 
 Boundary Detector::boundaryFor(const BatchItem& item, double threshold) const noexcept {

@@ -10,10 +10,9 @@ namespace voxtact {
 /// The host makes the pairs of fewer in the time that the dispatch takes: some 40 us on an H100.
 inline constexpr std::uint32_t kFewestHostPoses = 256;
 
-/// For those who ask by batches of so many poses of the host's, in Results that stage them: the description of a
-/// detector that makes pairs of them on the device. Nothing where `desc` does as well.
-[[nodiscard]] std::optional<DetectorDesc> forManyPoses(const ContextImpl& context, const DetectorDesc& desc,
-                                                       std::uint64_t poses);
+/// Returns the description of a detector that makes the pairs of a batch of the host's poses on the device, in Results
+/// that stage them; empty if the given one does so, or it saves no time.
+[[nodiscard]] std::optional<DetectorDesc> forManyPoses(const DetectorImpl& detector, std::uint64_t poses);
 
 /// Whether a device can have the detector that was asked for, but not that of forManyPoses(), which only saves time.
 [[nodiscard]] inline bool doesWithout(const Error& error) noexcept {

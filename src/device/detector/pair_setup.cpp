@@ -143,10 +143,10 @@ Result<void> makeSetupSets(ResultsImpl& results) {
     return results.staging.buffer ? makeStagedPoses(results) : Result<void>();
 }
 
-Result<PairSetup> PairSetup::create(ContextImpl& context, const DetectorDesc& desc) {
+Result<PairSetup> PairSetup::create(ContextImpl& context, const PassDesc& desc) {
     if (const char* missing = context.floatControls.missingForDoubles; missing != nullptr) {
         return Error{ErrorCode::Unsupported, 0,
-                     std::string("poses on the device (DetectorDesc::devicePoses) need doubles that round as the "
+                     std::string("poses on the device (devicePoses) need doubles that round as the "
                                  "host's, and the device lacks ") +
                          missing};
     }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "device/detector/pass_desc.h"
 #include "device/results/results_impl.h"
-#include "voxtact/detector.h"
 
 namespace voxtact {
 
@@ -16,7 +16,7 @@ namespace voxtact {
 class PairSetup {
   public:
     /// Unsupported, with what is missing named, where the device has no doubles that round as the host's.
-    [[nodiscard]] static Result<PairSetup> create(ContextImpl& context, const DetectorDesc& desc);
+    [[nodiscard]] static Result<PairSetup> create(ContextImpl& context, const PassDesc& desc);
 
     /// Writes the poses that the host has of a checked batch to where record() reads them, in Results that stage them.
     /// False where the host is to make the pairs of them: there are few, or more than a shader can see of the staging
@@ -40,7 +40,7 @@ class PairSetup {
         std::uint32_t words; ///< from one pose to the next
     };
 
-    PairSetup(ContextImpl& context, const DetectorDesc& desc) noexcept : context_(&context), desc_(desc) {}
+    PairSetup(ContextImpl& context, const PassDesc& desc) noexcept : context_(&context), desc_(desc) {}
 
     /// Of an item whose first pair that is.
     [[nodiscard]] Source sourceOf(const BatchItem& item, const ResultsImpl& results, std::uint32_t firstPair) const;
@@ -50,7 +50,7 @@ class PairSetup {
                     shader::PairSetupConstants constants) const;
 
     ContextImpl* context_;
-    DetectorDesc desc_;
+    PassDesc desc_;
     VkPipeline pipeline_ = VK_NULL_HANDLE;     ///< the context's
     VkPipeline hostPipeline_ = VK_NULL_HANDLE; ///< for poses of the host's
 };

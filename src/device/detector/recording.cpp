@@ -21,13 +21,13 @@ constexpr std::uint32_t kFewestStaged = 64;
 static_assert(sizeof(shader::CertifiedPair) <= kMostTransformsPerPair * sizeof(shader::PairTransform));
 
 /// Where a method's shaders run. One that computes names no stage of graphics: its queue may have none.
-VkPipelineStageFlags2 shadersOf(const DetectorDesc& desc) {
+VkPipelineStageFlags2 shadersOf(const PassDesc& desc) {
     return rowOf(desc.method).coverage == Coverage::Rasteriser
                ? VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT
                : VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
 }
 
-std::uint32_t howOf(const DetectorDesc& desc) {
+std::uint32_t howOf(const PassDesc& desc) {
     return static_cast<std::uint32_t>(desc.method) | static_cast<std::uint32_t>(desc.projection) << 8U |
            static_cast<std::uint32_t>(desc.stopAtFirst ? Exactness::LowerBound : exactness(desc.method)) << 16U;
 }
@@ -95,7 +95,7 @@ void recordEmptyResults(const ContextImpl& context, VkCommandBuffer commandBuffe
 
 /// What the passes need of the pairs whose poses the host has, made by the host.
 Result<void> recordPairs(const ContextImpl& context, VkCommandBuffer commandBuffer, const Batch& batch,
-                         const ResultsImpl& results, const DetectorDesc& desc) {
+                         const ResultsImpl& results, const PassDesc& desc) {
     Staging staging;
     if (results.staging.buffer && results.pairs >= kFewestStaged) {
         staging.buffer = &results.staging;
@@ -111,7 +111,7 @@ Result<void> recordPairs(const ContextImpl& context, VkCommandBuffer commandBuff
 
 /// What was written is ready for the shaders of a method, and for commands that write the results.
 void barrierToShaders(const ContextImpl& context, VkCommandBuffer commandBuffer, VkPipelineStageFlags2 stages,
-                      VkAccessFlags2 access, const DetectorDesc& desc) {
+                      VkAccessFlags2 access, const PassDesc& desc) {
     barrier(context, commandBuffer, stages, access, shadersOf(desc) | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
             VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
                 VK_ACCESS_2_TRANSFER_WRITE_BIT);
@@ -138,7 +138,7 @@ std::uint32_t transformsPerPair(Projection projection) noexcept {
 }
 
 Result<void> prepareResults(const ContextImpl& context, VkCommandBuffer commandBuffer, const Batch& batch,
-                            const ResultsImpl& results, const DetectorDesc& desc, const std::optional<PairSetup>& setup,
+                            const ResultsImpl& results, const PassDesc& desc, const std::optional<PairSetup>& setup,
                             std::uint32_t rounds) {
     if (results.timestamps) {
         context.vk.CmdResetQueryPool(commandBuffer, results.timestamps.get(), 0, 2);
@@ -183,7 +183,7 @@ Result<void> prepareResults(const ContextImpl& context, VkCommandBuffer commandB
 }
 
 void publishResults(const ContextImpl& context, VkCommandBuffer commandBuffer, const ResultsImpl& results,
-                    const DetectorDesc& desc) {
+                    const PassDesc& desc) {
     if (rowOf(desc.method).query) {
         copyQueries(context, commandBuffer, results);
     }

@@ -3,7 +3,6 @@
 
 #include "device/detector/pair_setup.h"
 #include "device/results/results_impl.h"
-#include "voxtact/detector.h"
 
 #include <optional>
 
@@ -18,12 +17,12 @@ inline constexpr std::uint32_t kMostTransformsPerPair = 2;
 /// queries reset where the method counts by query. `setup` is the detector's, for poses on the device and for staged
 /// ones; `rounds` are those of the projection certified, whose first VOXTACT_HEADERS it makes ready.
 [[nodiscard]] Result<void> prepareResults(const ContextImpl& context, VkCommandBuffer commandBuffer, const Batch& batch,
-                                          const ResultsImpl& results, const DetectorDesc& desc,
+                                          const ResultsImpl& results, const PassDesc& desc,
                                           const std::optional<PairSetup>& setup = std::nullopt,
                                           std::uint32_t rounds = 0);
 
 /// What every pass needs after it: queries are copied over the counts, and the results made visible to what follows.
 void publishResults(const ContextImpl& context, VkCommandBuffer commandBuffer, const ResultsImpl& results,
-                    const DetectorDesc& desc);
+                    const PassDesc& desc);
 
 } // namespace voxtact

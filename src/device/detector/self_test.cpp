@@ -81,7 +81,7 @@ Result<SelfTestVerdict> judge(const Context& context, const QueueAccess& queue, 
                               CountingMethod method, std::uint32_t arithmeticGroups) {
     SelfTestVerdict verdict{method, true, true, {}};
     Result<BlockingDetector> detector =
-        BlockingDetector::create(context, {.method = method, .filter = defaultFilter(method)}, queue);
+        BlockingDetector::create(context, RasterDesc{.method = method, .filter = defaultFilter(method)}, queue);
     VOXTACT_TRY(detector);
     const Mat4 pose = identity();
     std::vector<BatchItem> items;

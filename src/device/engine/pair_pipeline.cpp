@@ -162,7 +162,7 @@ Result<void> PairPipeline::State::land(Flight& flight, const Events& events) {
         events.pair(timed);
     }
     BatchAnswer answer;
-    VOXTACT_TRY(desc.room ? results.readOutputs(flight.frame, answer) : Result<void>());
+    VOXTACT_TRY(results.readOutputs(flight.frame, answer));
     if (flight.results->counted()) {
         const Result<CertifiedCounters> counters = flight.results->counters();
         VOXTACT_TRY(counters);
@@ -228,20 +228,17 @@ Result<PairPipeline> PairPipeline::create(const VulkanDevice& device, const Cont
                                           const PipelineDesc& desc) {
     PipelineDesc how = desc;
     how.timestamps = desc.timestamps && device.hasTimestamps();
-    const bool certified = detector.desc().projection == Projection::Certified;
     const ResultsDesc results{.maxPairs = how.pairsPerSubmission,
                               .readBack = true,
                               .timestamps = how.timestamps,
                               .queueFamily = device.queueAccess().family,
                               .room = how.room,
-                              .clustersAtOnce = certified ? std::nullopt : std::optional(0U),
                               .staged = true};
     Result<ResultRing> ring = stagedWhereThereIsRoom(
-        results, [&](const ResultsDesc& of) { return ResultRing::create(context, how.frames, of); });
+        results, [&](const ResultsDesc& of) { return ResultRing::create(detector, how.frames, of); });
     VOXTACT_TRY(ring);
     auto state = std::make_unique<State>(device, detector, how, std::move(*ring));
-    if (const std::optional<DetectorDesc> many =
-            forManyPoses(context.impl(), detector.desc(), how.pairsPerSubmission)) {
+    if (const std::optional<DetectorDesc> many = forManyPoses(detector.impl(), how.pairsPerSubmission)) {
         Result<Detector> made = Detector::create(context, *many);
         if (made.ok()) {
             state->forMany = std::move(*made);

@@ -26,7 +26,7 @@ struct PipelineDesc {
     std::uint32_t frames = 1; ///< submissions in flight; 1: submit and wait
     std::uint32_t pairsPerSubmission = 1;
     bool timestamps = false;
-    std::optional<OutputRoom> room = std::nullopt; ///< for a detector with outputs: of a submission
+    OutputRoom room{}; ///< of a submission
 };
 
 /// Any number of pairs, a bounded number at a time: the next submission is recorded while others are on the device.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "device/outputs/output_store.h"
+#include "core/base/refuse.h"
 #include "core/base/try.h"
 #include "device/scene/scene_impl.h"
 #include "vulkan/context_impl.h"
@@ -16,11 +17,12 @@ std::uint64_t aligned(std::uint64_t word) {
     return (word + kWords - 1) / kWords * kWords;
 }
 
-OutputLayout layoutOf(const OutputRoom& room, std::uint64_t pairs) {
+OutputLayout layoutOf(const OutputRoom& room, const Outputs& outputs, std::uint64_t pairs) {
     OutputLayout layout{};
     const std::size_t parts = outputParts().size();
     for (std::size_t part = 0; part < parts; ++part) {
-        const std::uint64_t end = layout[part] + outputParts()[part].room(room, pairs);
+        const OutputPartRow& row = outputParts()[part];
+        const std::uint64_t end = layout[part] + (outputs.*row.output ? row.room(room, pairs) : 0);
         layout[part + 1] = part + 1 < parts ? aligned(end) : end;
     }
     return layout;
@@ -30,15 +32,28 @@ std::uint64_t wordsOf(const OutputLayout& layout) {
     return layout[outputParts().size()];
 }
 
-Result<void> checkRoom(const ContextImpl& context, const ResultsDesc& desc) {
+Result<void> checkRoom(const ContextImpl& context, const ResultsDesc& desc, const Outputs& outputs) {
     const std::uint64_t most = context.limits.maxStorageBufferRange;
-    // Sums of larger ones could overflow.
-    const bool huge = desc.room->triangles > most || desc.room->labels > most;
-    if (huge || wordsOf(layoutOf(*desc.room, desc.maxPairs)) * kOutputWord > most) {
+    const struct {
+        bool needed;
+        std::uint64_t room;
+        const char* name;
+    } rooms[] = {{outputs.triangles, desc.room.triangles, "triangles"},
+                 {outputs.labels, desc.room.labels, "labels"},
+                 {outputs.contacts, desc.room.contacts, "contacts"}};
+    bool huge = false; // sums could overflow
+    for (const auto& each : rooms) {
+        if (each.needed && each.room == 0) {
+            return refuse(std::string("ResultsDesc::room.") + each.name + " is 0; the detector has the output " +
+                          each.name);
+        }
+        huge |= each.needed && each.room > most;
+    }
+    if (huge || wordsOf(layoutOf(desc.room, outputs, desc.maxPairs)) * kOutputWord > most) {
         return Error{ErrorCode::LimitExceeded, 0,
                      "the outputs of " + std::to_string(desc.maxPairs) + " pairs with room for " +
-                         std::to_string(desc.room->triangles) + " triangles, " + std::to_string(desc.room->labels) +
-                         " labels and " + std::to_string(desc.room->contacts) +
+                         std::to_string(desc.room.triangles) + " triangles, " + std::to_string(desc.room.labels) +
+                         " labels and " + std::to_string(desc.room.contacts) +
                          " contacts are beyond the device's maxStorageBufferRange, " + std::to_string(most)};
     }
     if (std::uint64_t{desc.maxPairs} * sizeof(shader::OutputPair) > most) {
@@ -96,25 +111,27 @@ Result<void> makeDescriptors(ContextImpl& context, OutputStore& out, VkBuffer tr
 
 } // namespace
 
-Result<std::unique_ptr<OutputStore>> makeOutputStore(ContextImpl& context, const ResultsDesc& desc, VkBuffer transforms,
+Result<std::unique_ptr<OutputStore>> makeOutputStore(ContextImpl& context, const ResultsDesc& desc,
+                                                     const Outputs& outputs, VkBuffer transforms,
                                                      const BufferRange& results) {
-    VOXTACT_TRY(checkRoom(context, desc));
+    VOXTACT_TRY(checkRoom(context, desc, outputs));
     auto out = std::make_unique<OutputStore>();
     out->maxPairs = desc.maxPairs;
-    out->room = *desc.room;
-    out->layout = layoutOf(*desc.room, desc.maxPairs);
+    out->room = desc.room;
+    out->outputs = outputs;
+    out->layout = layoutOf(desc.room, outputs, desc.maxPairs);
     VOXTACT_TRY(makeBuffers(context, desc, *out));
     VOXTACT_TRY(makeNoLabels(context, *out));
     VOXTACT_TRY(makeDescriptors(context, *out, transforms, results));
     return out;
 }
 
-OutputRoom roomFor(const Batch& batch) noexcept {
+OutputRoom roomFor(const Batch& batch, const Outputs& outputs) noexcept {
     OutputRoom room{.contacts = 0};
     for (const BatchItem& item : batch.items) {
         const std::uint64_t pairs = item.pairs();
-        room.triangles += item.mesh == nullptr ? 0 : pairs * item.mesh->triangles();
-        room.labels += item.labels == nullptr ? 0 : pairs * item.labels->values().size();
+        room.triangles += !outputs.triangles || item.mesh == nullptr ? 0 : pairs * item.mesh->triangles();
+        room.labels += !outputs.labels || item.labels == nullptr ? 0 : pairs * item.labels->values().size();
     }
     return room;
 }
@@ -124,7 +141,9 @@ VkDescriptorSet labelSetOf(const BatchItem& item, const OutputStore& store) noex
 }
 
 BufferRange rangeOf(const OutputStore* store, std::size_t part) noexcept {
-    const std::uint64_t words = store == nullptr ? 0 : outputParts()[part].room(store->room, store->maxPairs);
+    const OutputPartRow& row = outputParts()[part];
+    const std::uint64_t words =
+        store == nullptr || !(store->outputs.*row.output) ? 0 : row.room(store->room, store->maxPairs);
     return words == 0 ? BufferRange{}
                       : BufferRange{store->words.get(), store->layout[part] * kOutputWord, words * kOutputWord};
 }

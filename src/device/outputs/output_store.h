@@ -15,6 +15,7 @@ inline constexpr VkDeviceSize kOutputWord = sizeof(std::uint32_t);
 struct OutputStore {
     std::uint32_t maxPairs = 0;
     OutputRoom room{};
+    Outputs outputs{}; ///< that have room
     OutputLayout layout{};
     Buffer pairs{};                  ///< maxPairs OutputPairs
     Buffer words{};                  ///< everything that shaders write, by `layout`
@@ -26,12 +27,13 @@ struct OutputStore {
     std::vector<OutputItem> items{}; ///< of that batch
 };
 
-/// Refuses room beyond the device's limits (which limit, how large).
+/// Refuses room beyond the device's limits (which limit, how large), and none for one of the outputs.
 [[nodiscard]] Result<std::unique_ptr<OutputStore>> makeOutputStore(ContextImpl& context, const ResultsDesc& desc,
-                                                                   VkBuffer transforms, const BufferRange& results);
+                                                                   const Outputs& outputs, VkBuffer transforms,
+                                                                   const BufferRange& results);
 
-/// Room that a batch needs, its contacts aside. Null meshes and label maps need none.
-[[nodiscard]] OutputRoom roomFor(const Batch& batch) noexcept;
+/// Room that the outputs of a batch need, its contacts aside. Null meshes and label maps need none.
+[[nodiscard]] OutputRoom roomFor(const Batch& batch, const Outputs& outputs) noexcept;
 
 /// Records the clearing of what the outputs of a batch go to, and what the shaders need to know of its pairs. Between
 /// the barriers of prepareResults(). Remembers the batch for unpackOutputs().

@@ -58,7 +58,7 @@ Result<void> checkLabelMap(const ContextImpl& context, const LabelMap& labels, c
     return labels.impl().uploaded ? Result<void>() : neverUploaded(which + ": the label map");
 }
 
-Result<void> checkOutputs(const ContextImpl& context, const DetectorDesc& desc) {
+Result<void> checkOutputs(const ContextImpl& context, const PassDesc& desc) {
     if (!desc.outputs.any()) {
         return {};
     }
@@ -88,16 +88,12 @@ Result<void> checkOutputs(const ContextImpl& context, const Batch& batch, const 
         return {};
     }
     VOXTACT_TRY(checkLabelMaps(context, batch, outputs));
-    if (results.outputs == nullptr) {
-        return refuse("the detector has outputs, the Results were made without room for them (ResultsDesc::room)");
+    if ((outputsConstant(outputs) & ~results.outputBits) != 0) {
+        return refuse("the detector has outputs that the detector of the Results lacks");
     }
-    const OutputRoom needed = roomFor(batch);
-    if (Result<void> room =
-            checkRoom("triangles", outputs.triangles ? needed.triangles : 0, results.outputs->room.triangles);
-        !room.ok()) {
-        return room;
-    }
-    return checkRoom("labels", outputs.labels ? needed.labels : 0, results.outputs->room.labels);
+    const OutputRoom needed = roomFor(batch, outputs);
+    VOXTACT_TRY(checkRoom("triangles", needed.triangles, results.outputs->room.triangles));
+    return checkRoom("labels", needed.labels, results.outputs->room.labels);
 }
 
 } // namespace voxtact

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "device/detector/pass_desc.h"
 #include "device/results/results_impl.h"
 #include "vulkan/context_impl.h"
 
@@ -14,10 +15,10 @@ VkPipelineLayout bindForCompute(const ContextImpl& context, VkCommandBuffer comm
 [[nodiscard]] Result<void> checkLabelMap(const ContextImpl& context, const LabelMap& labels, const std::string& which);
 
 /// Refuses outputs that the device cannot do with the method, and a maximal depth that is not a positive number.
-[[nodiscard]] Result<void> checkOutputs(const ContextImpl& context, const DetectorDesc& desc);
+[[nodiscard]] Result<void> checkOutputs(const ContextImpl& context, const PassDesc& desc);
 
-/// Refuses a checked batch whose outputs have no room in the Results, whose items have no label map where labels are
-/// asked for, or one of another Context.
+/// Refuses Results without one of the outputs, and a checked batch whose outputs have no room in them, whose items have
+/// no label map where labels are asked for, or one of another Context.
 [[nodiscard]] Result<void> checkOutputs(const ContextImpl& context, const Batch& batch, const Outputs& outputs,
                                         const ResultsImpl& results);
 

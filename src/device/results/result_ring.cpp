@@ -27,7 +27,7 @@ Result<void> checkInto(std::uint32_t frames, const ResultsDesc& desc) {
 
 } // namespace
 
-Result<ResultRing> ResultRing::create(const Context& context, std::uint32_t frames, const ResultsDesc& desc) {
+Result<ResultRing> ResultRing::create(const Detector& detector, std::uint32_t frames, const ResultsDesc& desc) {
     return guard([&]() -> Result<ResultRing> {
         if (frames == 0) {
             return refuse("a ring needs at least one frame");
@@ -40,7 +40,7 @@ Result<ResultRing> ResultRing::create(const Context& context, std::uint32_t fram
         ResultRing out;
         ResultsDesc slot = desc;
         for (std::uint32_t i = 0; i < frames; ++i) {
-            Result<Results> results = Results::create(context, slot);
+            Result<Results> results = Results::create(detector, slot);
             VOXTACT_TRY(results);
             out.slots_.push_back({std::move(*results)});
             const VkDeviceSize next = std::min(resultBytes(desc.maxPairs), slot.into.size);

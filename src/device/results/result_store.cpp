@@ -2,6 +2,7 @@
 #include "device/results/result_store.h"
 #include "core/base/refuse.h"
 #include "core/base/try.h"
+#include "core/method/method_table.h"
 #include "device/detector/pair_setup.h"
 #include "device/detector/recording.h"
 #include "device/touch/certified_queues.h"
@@ -63,7 +64,7 @@ Result<void> checkDesc(const ContextImpl& context, const ResultsDesc& desc) {
     if (desc.maxPairs == 0) {
         return refuse("ResultsDesc::maxPairs is 0");
     }
-    if (const std::uint32_t clusters = desc.clustersAtOnce.value_or(0);
+    if (const std::uint32_t clusters = desc.clustersAtOnce;
         clusters != 0 && (clusters < kLeastQueueRoom || clusters > kMostQueueRoom)) {
         return refuse("ResultsDesc::clustersAtOnce is " + std::to_string(clusters) + "; 0, or " +
                       std::to_string(kLeastQueueRoom) + " to " + std::to_string(kMostQueueRoom) + ", is possible");
@@ -88,9 +89,9 @@ Result<void> checkDesc(const ContextImpl& context, const ResultsDesc& desc) {
     return {};
 }
 
-/// A caller that asks for queues must not find at the first batch that there are none.
-Result<void> checkQueueRoom(const ContextImpl& context, const ResultsImpl& results, const ResultsDesc& desc) {
-    if (results.queueRoom != 0 || desc.clustersAtOnce.value_or(0) == 0) {
+Result<void> makeQueueRoom(const ContextImpl& context, const ResultsDesc& desc, ResultsImpl& results) {
+    results.queueRoom = queueRoomFor(desc, limitsOf(context), firstQueueByte(results));
+    if (results.queueRoom != 0) {
         return {};
     }
     const VkDeviceSize bytes = firstQueueByte(results) + queueBytes(kLeastQueueRoom);
@@ -175,20 +176,23 @@ Result<void> makeDescriptors(ResultsImpl& out) {
 
 } // namespace
 
-Result<std::unique_ptr<ResultsImpl>> makeResults(ContextImpl& context, const ResultsDesc& desc) {
+Result<std::unique_ptr<ResultsImpl>> makeResults(ContextImpl& context, const PassDesc& detector,
+                                                 const ResultsDesc& desc) {
     VOXTACT_TRY(checkDesc(context, desc));
-    auto impl = std::make_unique<ResultsImpl>(ResultsImpl{.context = context, .maxPairs = desc.maxPairs});
+    auto impl = std::make_unique<ResultsImpl>(ResultsImpl{.context = context,
+                                                          .certified = rowOf(detector.projection).certified,
+                                                          .outputBits = outputsConstant(detector.outputs),
+                                                          .maxPairs = desc.maxPairs});
     impl->maxTransforms = transformsFor(context, desc.maxPairs);
-    impl->queueRoom = queueRoomFor(desc, limitsOf(context), firstQueueByte(*impl));
-    VOXTACT_TRY(checkQueueRoom(context, *impl, desc));
+    VOXTACT_TRY(impl->certified ? makeQueueRoom(context, desc, *impl) : Result<void>());
     impl->timestampBits = desc.timestamps ? context.timestampBits(desc.queueFamily) : 0;
     VOXTACT_TRY(makeBuffers(*impl, desc));
     for (const auto make : {makeQueries, makeDescriptors, makeSetupSets}) {
         VOXTACT_TRY(make(*impl));
     }
-    if (desc.room) {
+    if (detector.outputs.any()) {
         Result<std::unique_ptr<OutputStore>> outputs =
-            makeOutputStore(context, desc, impl->transforms.get(), impl->results);
+            makeOutputStore(context, desc, detector.outputs, impl->transforms.get(), impl->results);
         VOXTACT_TRY(outputs);
         impl->outputs = std::move(*outputs);
     }

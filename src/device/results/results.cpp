@@ -3,7 +3,7 @@
 #include "core/base/live.h"
 #include "core/base/refuse.h"
 #include "core/base/try.h"
-#include "device/detector/recording.h"
+#include "device/detector/detector_impl.h"
 #include "device/results/result_store.h"
 #include "device/touch/certified_queues.h"
 #include "exact/shared.h"
@@ -52,14 +52,11 @@ Results::Results(Results&&) noexcept = default;
 Results& Results::operator=(Results&&) noexcept = default;
 Results::~Results() = default;
 
-Result<Results> Results::create(const Context& context, const ResultsDesc& desc) {
-    return create(context.impl(), desc);
-}
-
-Result<Results> Results::create(ContextImpl& c, const ResultsDesc& desc) {
+Result<Results> Results::create(const Detector& detector, const ResultsDesc& desc) {
     return guard([&]() -> Result<Results> {
-        VOXTACT_TRY(c.alive());
-        Result<std::unique_ptr<ResultsImpl>> impl = makeResults(c, desc);
+        const DetectorImpl& of = detector.impl();
+        VOXTACT_TRY(of.context.alive());
+        Result<std::unique_ptr<ResultsImpl>> impl = makeResults(of.context, of.desc, desc);
         VOXTACT_TRY(impl);
         return Results(std::move(*impl));
     });
@@ -150,7 +147,7 @@ Result<CertifiedCounters> Results::counters() {
         const ResultsImpl& r = live(impl_);
         VOXTACT_TRY(checkReadable(r));
         if (!r.counted) {
-            return notReady("the last cmdDetect() was of a detector without DetectorDesc::counters");
+            return notReady("the last cmdDetect() was of a detector without CertifiedDesc::counters");
         }
         CertifiedCounters counters{};
         if (r.pairs > 0) {

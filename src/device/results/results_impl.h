@@ -10,6 +10,8 @@ namespace voxtact {
 struct ResultsImpl {
     ContextImpl& context;
     std::shared_ptr<ContextImpl> owner = context.shared_from_this();
+    bool certified = false;       ///< for certified detectors
+    std::uint32_t outputBits = 0; ///< outputsConstant() of the outputs that have room
     std::uint32_t maxPairs = 0;
     std::uint32_t pairs = 0;         ///< of the batch recorded last
     std::uint32_t timestampBits = 0; ///< valid bits; 0: no timestamps
@@ -18,7 +20,7 @@ struct ResultsImpl {
     bool counted = false;            ///< the batch recorded last has CertifiedCounters
     std::uint32_t copies = 0;        ///< that cmdReadBack() recorded; the last thing that a copy writes is its number
     std::uint32_t maxTransforms = 0; ///< at least maxPairs
-    std::uint32_t queueRoom = 0;     ///< of the projection certified, in clusters: src/exact/shared.h
+    std::uint32_t queueRoom = 0;     ///< in clusters: src/exact/shared.h; 0 where not `certified`
     Buffer transforms{};             ///< maxTransforms PairTransforms, and behind them the queues of that projection
     BufferRange results{};           ///< maxPairs PairResults, of `ownResults` or of the caller's buffer
     Buffer ownResults{};             ///< empty with ResultsDesc::into
@@ -30,7 +32,7 @@ struct ResultsImpl {
     Owned<VkQueryPool> timestamps{};  ///< two, or none
     DescriptorSet descriptors{};
     DescriptorSet setup{};                  ///< VOXTACT_SET_SETUP
-    std::unique_ptr<OutputStore> outputs{}; ///< null without room for outputs
+    std::unique_ptr<OutputStore> outputs{}; ///< null without outputs
 
     /// Where the parts of `readBack` begin that are behind the results.
     [[nodiscard]] VkDeviceSize countersOnHost() const noexcept { return VkDeviceSize{maxPairs} * sizeof(PairResult); }

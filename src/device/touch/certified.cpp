@@ -68,7 +68,7 @@ void recordOpaque(const ContextImpl& context, VkCommandBuffer commandBuffer, con
 
 } // namespace
 
-Result<CertifiedPass> CertifiedPass::create(ContextImpl& context, const DetectorDesc& desc) {
+Result<CertifiedPass> CertifiedPass::create(ContextImpl& context, const PassDesc& desc) {
     CertifiedPass pass(context, desc);
     const ShaderConstant constants[] = {{VOXTACT_CONSTANT_STOP_AT_FIRST, desc.stopAtFirst ? 1U : 0U},
                                         {VOXTACT_CONSTANT_COUNTERS, desc.counters ? 1U : 0U},

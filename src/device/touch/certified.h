@@ -2,10 +2,10 @@
 #pragma once
 
 #include "core/transfer/opaque_numbers.h"
+#include "device/detector/pass_desc.h"
 #include "device/results/results_impl.h"
 #include "device/touch/round_recorder.h"
 #include "exact/shared.h"
-#include "voxtact/detector.h"
 #include "vulkan/pipeline.h"
 
 #include <array>
@@ -19,7 +19,7 @@ inline constexpr std::size_t kCertifiedPasses = 6;
 /// (shaders/touch/certified_*.comp).
 class CertifiedPass {
   public:
-    [[nodiscard]] static Result<CertifiedPass> create(ContextImpl& context, const DetectorDesc& desc);
+    [[nodiscard]] static Result<CertifiedPass> create(ContextImpl& context, const PassDesc& desc);
 
     /// What a checked batch can still lack: bricks, a table that the host knows, a mesh that shaders can read.
     [[nodiscard]] Result<void> check(const Batch& batch) const;
@@ -36,7 +36,7 @@ class CertifiedPass {
     }
 
   private:
-    CertifiedPass(ContextImpl& context, const DetectorDesc& desc) noexcept : context_(&context), desc_(desc) {}
+    CertifiedPass(ContextImpl& context, const PassDesc& desc) noexcept : context_(&context), desc_(desc) {}
 
     void record(VkCommandBuffer commandBuffer, const Batch& batch, const ResultsImpl& results) const;
     [[nodiscard]] RoundCut cutOf(const BatchItem& item, std::uint32_t queueRoom) const noexcept;
@@ -45,9 +45,9 @@ class CertifiedPass {
                                                          const ResultsImpl& results) const;
 
     ContextImpl* context_;
-    DetectorDesc desc_;
+    PassDesc desc_;
     std::array<VkPipeline, kCertifiedPasses> pipelines_{};
-    VkPipeline tally_ = VK_NULL_HANDLE; ///< with DetectorDesc::counters
+    VkPipeline tally_ = VK_NULL_HANDLE; ///< with counters
 };
 
 } // namespace voxtact

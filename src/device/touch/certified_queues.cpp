@@ -46,8 +46,8 @@ RoomLimits roomLimits(const VkPhysicalDeviceLimits& device, VkDeviceSize maxAllo
 std::uint32_t queueRoomFor(const ResultsDesc& desc, const RoomLimits& limits, VkDeviceSize first) noexcept {
     constexpr std::uint32_t kClustersOfPair = 64;
     constexpr std::uint32_t kStep = 16; // src/exact/shared.h
-    std::uint32_t room = std::min(desc.clustersAtOnce.value_or(0), limits.room);
-    if (!desc.clustersAtOnce) {
+    std::uint32_t room = std::min(desc.clustersAtOnce, limits.room);
+    if (room == 0) {
         const std::uint32_t pairs = std::bit_ceil(std::min(desc.maxPairs, limits.room / kClustersOfPair));
         room = std::max(kUsualQueueRoom, pairs * kClustersOfPair);
         while (room > kMostRoomAnywhere && queueBytes(room) > limits.usualBytes) {

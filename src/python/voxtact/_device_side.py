@@ -9,9 +9,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ._errors import LimitExceededError
-from ._handles import Device, Labels, Mesh, Volume
+from ._handles import METHODS, Device, Labels, Mesh, Volume
 from ._library import NULL, CData, check, copied, ffi, lib, made, made_with, pointer, refuse, struct, structs
-from ._request import Opacity, Question, Request
+from ._request import PROJECTIONS, Opacity, Question, Request
 from ._turns import interruptibly
 from ._wish import PictureWish
 
@@ -88,13 +88,24 @@ class DeviceSide:
         found = self._detectors.get(question.key)
         if found is None:
             method = self._method(question)
-            desc = struct("detector_desc", method=method, projection=question.projection, boundary=question.boundary,
-                          filter=lib.vxt_default_filter(method) if question.filter is None else question.filter,
-                          max_depth=question.max_depth, resolution=question.resolution, outputs=question.outputs,
-                          samples_per_voxel=question.samples_per_voxel, overestimate=question.overestimate, counters=question.counters,
-                          stop_at_first=question.stop_at_first and question.is_certified)
+            if question.is_certified:
+                if method != lib.VXT_METHOD_COMPUTE:
+                    refuse(f"projection='certified' needs method='compute', not '{METHODS[method]}'")
+                if question.overestimate:
+                    refuse("the overestimate is for projection='dominant-axis', not for 'certified'")
+                kind = "certified"
+                desc = struct("certified_desc", max_depth=question.max_depth, resolution=question.resolution, outputs=question.outputs,
+                              stop_at_first=question.stop_at_first, counters=question.counters)
+            else:
+                if question.counters:
+                    refuse(f"counters are of projection='certified', not of '{PROJECTIONS[question.projection]}'")
+                kind = "raster"
+                desc = struct("raster_desc", method=method, projection=question.projection, boundary=question.boundary,
+                              filter=lib.vxt_default_filter(method) if question.filter is None else question.filter,
+                              max_depth=question.max_depth, outputs=question.outputs,
+                              samples_per_voxel=question.samples_per_voxel, overestimate=question.overestimate)
             device = self._device
-            found = device.make("blocking_detector", lib.vxt_blocking_detector_create, device.context, desc, device.queue,
+            found = device.make("blocking_detector", getattr(lib, f"vxt_blocking_detector_create_{kind}"), device.context, desc, device.queue,
                                 max(question.max_contacts, 1))
             if len(self._detectors) >= _MAX_DETECTORS:
                 del self._detectors[next(iter(self._detectors))]

@@ -9,12 +9,11 @@ namespace voxtact::view {
 Result<std::unique_ptr<BesideAnswers>> BesideAnswers::create(const device::Session& session, DeviceScene& scene,
                                                              std::shared_ptr<Detectors> detectors,
                                                              std::function<void()> wake) {
-    Result<DeviceAnswers> answers = DeviceAnswers::create(session, scene, detectors);
-    VOXTACT_TRY(answers);
+    DeviceAnswers answers(session, scene, detectors);
     Result<device::TimedSubmission> submission = device::TimedSubmission::create(session);
     VOXTACT_TRY(submission);
     return std::unique_ptr<BesideAnswers>(
-        new BesideAnswers(scene, std::move(detectors), std::move(*answers), std::move(*submission), std::move(wake)));
+        new BesideAnswers(scene, std::move(detectors), std::move(answers), std::move(*submission), std::move(wake)));
 }
 
 BesideAnswers::BesideAnswers(DeviceScene& scene, std::shared_ptr<Detectors> detectors, DeviceAnswers answers,

@@ -16,32 +16,26 @@ Result<const Detector*> Detectors::get(const MethodChoice& method) {
     if (const Detector* const found = find(method)) {
         return found;
     }
-    DetectorDesc desc;
-    desc.method = method.count;
-    desc.projection = method.projection;
-    desc.filter = defaultFilter(method.count);
-    desc.outputs = {.triangles = true, .contacts = true, .labels = labels_};
-    Result<Detector> made = Detector::create(*context_, desc); // owners of a detector do not wait
+    const Outputs outputs{.triangles = true, .contacts = true, .labels = labels_};
+    Result<Detector> made = rowOf(method.projection).certified
+                                ? Detector::certified(*context_, {.outputs = outputs})
+                                : Detector::raster(*context_, {.method = method.count,
+                                                               .projection = method.projection,
+                                                               .filter = defaultFilter(method.count),
+                                                               .outputs = outputs});
     VOXTACT_TRY(made);
     const std::lock_guard lock(mutex_);
     return &detectors_.try_emplace(Key(method.count, method.projection), std::move(*made)).first->second;
 }
 
-Result<DeviceAnswers> DeviceAnswers::create(const device::Session& session, const DeviceScene& scene,
-                                            std::shared_ptr<Detectors> detectors) {
-    DeviceAnswers out(std::move(detectors));
-    ResultsDesc desc;
-    desc.timestamps = session.device.hasTimestamps();
-    desc.queueFamily = session.device.queueAccess().family;
-    desc.maxPairs = scene.meshes();
+DeviceAnswers::DeviceAnswers(const device::Session& session, const DeviceScene& scene,
+                             std::shared_ptr<Detectors> detectors)
+    : detectors_(std::move(detectors)) {
     const std::uint64_t labels = scene.labels() == nullptr ? 0 : scene.labels()->values().size();
-    desc.room = OutputRoom{.triangles = scene.triangles(), .labels = labels * scene.meshes()};
-    for (std::uint32_t slot = 0; slot < kFramesInFlight; ++slot) {
-        Result<Results> results = Results::create(session.context, desc);
-        VOXTACT_TRY(results);
-        out.results_.push_back(std::move(*results));
-    }
-    return out;
+    desc_.timestamps = session.device.hasTimestamps();
+    desc_.queueFamily = session.device.queueAccess().family;
+    desc_.maxPairs = scene.meshes();
+    desc_.room = {.triangles = scene.triangles(), .labels = labels * scene.meshes()};
 }
 
 std::vector<MethodChoice> DeviceAnswers::choices(const Context& context) {
@@ -61,10 +55,17 @@ Result<void> DeviceAnswers::record(VkCommandBuffer commands, const DeviceScene& 
                                    std::uint32_t slot) {
     const Result<const Detector*> detector = detectors_->get(question.method);
     VOXTACT_TRY(detector);
+    const bool certified = rowOf(question.method.projection).certified;
+    std::optional<Results>& results = results_[certified ? 1 : 0][slot];
+    if (!results) {
+        Result<Results> made = Results::create(**detector, desc_);
+        VOXTACT_TRY(made);
+        results = std::move(*made);
+    }
     const AskedPairs pairs = scene.pairs(question.edit);
-    VOXTACT_TRY((*detector)->cmdDetect(commands, pairs.batch, results_[slot]));
-    VOXTACT_TRY(results_[slot].cmdReadBack(commands));
-    asked_[slot] = Asked{question.revision, question.edit.instruments};
+    VOXTACT_TRY((*detector)->cmdDetect(commands, pairs.batch, *results));
+    VOXTACT_TRY(results->cmdReadBack(commands));
+    asked_[slot] = Asked{question.revision, question.edit.instruments, certified};
     return {};
 }
 
@@ -73,15 +74,16 @@ std::optional<Result<LiveAnswer>> DeviceAnswers::collect(std::uint32_t slot, dou
         return std::nullopt;
     }
     const Asked asked = *std::exchange(asked_[slot], std::nullopt);
+    Results& results = *results_[asked.certified ? 1 : 0][slot];
     return [&]() -> Result<LiveAnswer> {
-        const auto pairs = results_[slot].read();
+        const auto pairs = results.read();
         VOXTACT_TRY(pairs);
         BatchAnswer batch;
-        VOXTACT_TRY(results_[slot].readOutputs(batch));
+        VOXTACT_TRY(results.readOutputs(batch));
         for (const PairResult& pair : *pairs) {
             batch.pairs.push_back(unpack(pair));
         }
-        const Result<double> gpu = results_[slot].gpuMilliseconds();
+        const Result<double> gpu = results.gpuMilliseconds();
         return liveAnswer(std::move(batch), asked.revision, asked.instruments, gpu.ok() ? *gpu : wallMilliseconds);
     }();
 }

@@ -31,8 +31,7 @@ class Detectors {
 /// Answers of the device: recorded into a frame, and read when the frame is done.
 class DeviceAnswers {
   public:
-    [[nodiscard]] static Result<DeviceAnswers> create(const device::Session& session, const DeviceScene& scene,
-                                                      std::shared_ptr<Detectors> detectors);
+    DeviceAnswers(const device::Session& session, const DeviceScene& scene, std::shared_ptr<Detectors> detectors);
     /// Returns the methods of this device and of the host.
     [[nodiscard]] static std::vector<MethodChoice> choices(const Context& context);
 
@@ -48,11 +47,13 @@ class DeviceAnswers {
     struct Asked {
         std::uint64_t revision = 0;
         std::vector<Instrument> instruments;
+        bool certified = false;
     };
-    explicit DeviceAnswers(std::shared_ptr<Detectors> detectors) : detectors_(std::move(detectors)) {}
 
     std::shared_ptr<Detectors> detectors_;
-    std::vector<Results> results_;
+    ResultsDesc desc_;
+    /// Of detectors that are not certified, and of certified ones; each made when it is first needed.
+    std::array<std::array<std::optional<Results>, kFramesInFlight>, 2> results_;
     std::array<std::optional<Asked>, kFramesInFlight> asked_;
 };
 

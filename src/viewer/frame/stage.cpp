@@ -54,9 +54,7 @@ Result<std::unique_ptr<Stage>> Stage::create(const device::Session& session, con
     VOXTACT_TRY(scene);
     stage->scene = std::move(*scene);
     const auto detectors = std::make_shared<Detectors>(session.context, stage->scene->labels() != nullptr);
-    Result<DeviceAnswers> answers = DeviceAnswers::create(session, *stage->scene, detectors);
-    VOXTACT_TRY(answers);
-    stage->device = std::move(*answers);
+    stage->device.emplace(session, *stage->scene, detectors);
     Result<std::unique_ptr<BesideAnswers>> beside = BesideAnswers::create(session, *stage->scene, detectors, desc.wake);
     VOXTACT_TRY(beside);
     stage->beside = std::move(*beside);

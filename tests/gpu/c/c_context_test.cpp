@@ -22,10 +22,10 @@ TEST_F(CGpuTest, AContextHasErrorsOfItsOwn) {
     const CScene sides(context_.get(), queue_, scene, twoLabels());
     EXPECT_STREQ(vxt_last_error(context_.get()), "");
     std::thread elsewhere([&] {
-        vxt_detector_desc desc = sized<vxt_detector_desc>();
+        vxt_raster_desc desc = sized<vxt_raster_desc>();
         desc.method = VXT_METHOD_CPU;
         vxt_detector* detector = nullptr;
-        EXPECT_EQ(vxt_detector_create(context_.get(), &desc, &detector), VXT_ERROR_INVALID_ARGUMENT);
+        EXPECT_EQ(vxt_detector_create_raster(context_.get(), &desc, &detector), VXT_ERROR_INVALID_ARGUMENT);
     });
     elsewhere.join();
     EXPECT_THAT(vxt_last_error(context_.get()), HasSubstr("cpu"));
@@ -48,7 +48,7 @@ TEST_F(CGpuTest, ObjectsOutliveTheContextThatMadeThem) {
     const RandomScene scene = halfOpaque();
     const CScene sides(context_.get(), queue_, scene, twoLabels());
     const COneItem of(sides, scene);
-    const Owned<vxt_blocking_detector> detector = newBlocking(sized<vxt_detector_desc>());
+    const Owned<vxt_blocking_detector> detector = newBlocking(sized<vxt_raster_desc>());
     context_.reset();
     EXPECT_EQ(ask(*detector, of).pairs.at(0).count, 128U);
     vxt_batch none = of.batch;

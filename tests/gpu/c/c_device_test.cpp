@@ -79,13 +79,14 @@ TEST_F(CDevice, UploadsEditsAndCounts) {
     vxt_queue queue = sized<vxt_queue>();
     need(vxt_device_queue(device.get(), &queue));
     EXPECT_NE(queue.queue, VK_NULL_HANDLE);
-    vxt_detector_desc desc = sized<vxt_detector_desc>();
+    vxt_raster_desc desc = sized<vxt_raster_desc>();
     desc.method = vxt_context_default_method(context);
     const RandomScene scene = halfOpaque();
     // What was made with the device ends before it.
     const CScene sides(context, queue, scene, twoLabels());
     const COneItem of(sides, scene);
-    const auto detector = made(vxt_blocking_detector_destroy, vxt_blocking_detector_create, context, &desc, &queue, 0);
+    const auto detector =
+        made(vxt_blocking_detector_destroy, vxt_blocking_detector_create_raster, context, &desc, &queue, 0);
     EXPECT_EQ(ask(*detector, of).pairs.at(0).count, 128U);
     const vxt_voxel_box right{{3, 0, 0}, {3, 6, 6}};
     VkCommandBuffer commands = VK_NULL_HANDLE;

@@ -83,14 +83,22 @@ class CGpuTest : public GpuTest {
         const vxt_context_desc desc = cDesc(cpp);
         return made(vxt_context_destroy, vxt_context_create, &desc);
     }
-    [[nodiscard]] Owned<vxt_detector> newDetector(const vxt_detector_desc& desc) const {
-        return made(vxt_detector_destroy, vxt_detector_create, context_.get(), &desc);
+    [[nodiscard]] Owned<vxt_detector> newDetector(const vxt_certified_desc& desc) const {
+        return made(vxt_detector_destroy, vxt_detector_create_certified, context_.get(), &desc);
     }
-    [[nodiscard]] Owned<vxt_results> newResults(const vxt_results_desc& desc) const {
-        return made(vxt_results_destroy, vxt_results_create, context_.get(), &desc);
+    [[nodiscard]] Owned<vxt_detector> newDetector(const vxt_raster_desc& desc) const {
+        return made(vxt_detector_destroy, vxt_detector_create_raster, context_.get(), &desc);
     }
-    [[nodiscard]] Owned<vxt_blocking_detector> newBlocking(const vxt_detector_desc& desc) const {
-        return made(vxt_blocking_detector_destroy, vxt_blocking_detector_create, context_.get(), &desc, &queue_, kMany);
+    [[nodiscard]] static Owned<vxt_results> newResults(const vxt_detector& detector, const vxt_results_desc& desc) {
+        return made(vxt_results_destroy, vxt_results_create, &detector, &desc);
+    }
+    [[nodiscard]] Owned<vxt_blocking_detector> newBlocking(const vxt_certified_desc& desc) const {
+        return made(vxt_blocking_detector_destroy, vxt_blocking_detector_create_certified, context_.get(), &desc,
+                    &queue_, kMany);
+    }
+    [[nodiscard]] Owned<vxt_blocking_detector> newBlocking(const vxt_raster_desc& desc) const {
+        return made(vxt_blocking_detector_destroy, vxt_blocking_detector_create_raster, context_.get(), &desc, &queue_,
+                    kMany);
     }
     [[nodiscard]] static BatchAnswer ask(vxt_blocking_detector& detector, const COneItem& of) {
         const Owned<vxt_answer> answer = newAnswer();

@@ -458,14 +458,13 @@ TEST_F(CPictures, RefuseWhatTheCppInterfaceRefuses) {
 
 TEST_F(CPictures, WrapATriangleMaskOfADetector) {
     // The same mask as painted_ has, but where a detector left it: both triangles are touched.
-    vxt_detector_desc desc = sized<vxt_detector_desc>();
+    vxt_raster_desc desc = sized<vxt_raster_desc>();
     desc.method = VXT_METHOD_ATOMIC;
     desc.outputs = VXT_OUTPUT_TRIANGLES;
     vxt_results_desc resultsDesc = sized<vxt_results_desc>();
-    resultsDesc.outputs = VXT_OUTPUT_TRIANGLES;
     resultsDesc.triangle_room = 2;
-    const Owned<vxt_results> results = newResults(resultsDesc);
     const Owned<vxt_detector> detector = newDetector(desc);
+    const Owned<vxt_results> results = newResults(*detector, resultsDesc);
     const COneItem of(*sides_, scene_);
     RawVulkan raw(gpu().device);
     const VkCommandBuffer commands = raw.begin();

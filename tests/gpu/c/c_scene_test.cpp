@@ -15,7 +15,7 @@ TEST_F(CGpuTest, EditsTakeEffectInTheOrderOfTheCommands) {
     const RandomScene scene = halfOpaque();
     const CScene sides(context_.get(), queue_, scene, twoLabels());
     const COneItem of(sides, scene);
-    vxt_detector_desc desc = sized<vxt_detector_desc>();
+    vxt_raster_desc desc = sized<vxt_raster_desc>();
     desc.method = VXT_METHOD_COMPUTE;
     desc.filter = VXT_FILTER_EXACT;
     const Owned<vxt_blocking_detector> detector = newBlocking(desc);
@@ -68,7 +68,7 @@ TEST_F(CGpuTest, MeshesBend) {
     const auto mesh = made(vxt_mesh_destroy, vxt_mesh_upload, context_.get(), &queue_, &view, &options);
     COneItem of(sides, scene);
     of.item.mesh = mesh.get();
-    const Owned<vxt_blocking_detector> detector = newBlocking(sized<vxt_detector_desc>());
+    const Owned<vxt_blocking_detector> detector = newBlocking(sized<vxt_raster_desc>());
     EXPECT_EQ(ask(*detector, of).pairs.at(0).count, 128U);
     // A quarter of the square: what of it is opaque is the whole quarter, then nothing.
     std::vector<double> quarter = scene.mesh.positions;
@@ -116,10 +116,7 @@ TEST_F(CGpuTest, FitsTheClustersOfTheCallersMesh) {
     const auto mesh = made(vxt_mesh_destroy, vxt_mesh_wrap, context_.get(), &wrapped);
     EXPECT_EQ(vxt_mesh_cmd_refit(mesh.get(), raw.begin()), VXT_ERROR_NOT_READY);
     const CScene sides(context_.get(), queue_, scene, twoLabels());
-    vxt_detector_desc desc = sized<vxt_detector_desc>();
-    desc.method = VXT_METHOD_COMPUTE;
-    desc.projection = VXT_PROJECTION_CERTIFIED;
-    const Owned<vxt_blocking_detector> detector = newBlocking(desc);
+    const Owned<vxt_blocking_detector> detector = newBlocking(sized<vxt_certified_desc>());
     COneItem of(sides, scene);
     of.item.mesh = mesh.get();
     const auto countAfter = [&](auto record) {
@@ -182,7 +179,7 @@ TEST_F(CGpuTest, WrapsTheCallersObjects) {
     of.item.volume = volume.get();
     of.item.transfer_function = function.get();
     of.item.mesh = mesh.get();
-    EXPECT_EQ(ask(*newBlocking(sized<vxt_detector_desc>()), of).pairs.at(0).count, 128U);
+    EXPECT_EQ(ask(*newBlocking(sized<vxt_raster_desc>()), of).pairs.at(0).count, 128U);
     EXPECT_EQ(vxt_mesh_triangles(mesh.get()), 2U);
 
     const std::array<float, 32> matrices{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1,
@@ -196,7 +193,7 @@ TEST_F(CGpuTest, WrapsTheCallersObjects) {
     moving.item = of.item;
     moving.item.poses = poses.get();
     moving.item.pose_count = 2;
-    vxt_detector_desc withPoses = sized<vxt_detector_desc>();
+    vxt_raster_desc withPoses = sized<vxt_raster_desc>();
     withPoses.device_poses = 1;
     const auto byPoses = newBlocking(withPoses);
     const auto answer = made(vxt_answer_destroy, vxt_answer_create);
@@ -227,7 +224,7 @@ TEST_F(CGpuTest, WrapsTheCallersObjects) {
     EXPECT_EQ(std::vector(labels, labels + count), (std::vector<std::int32_t>{0, 3}));
     // Voxels on the faces are opaque: clamping would count what is outside.
     vxt_boundary boundary = VXT_BOUNDARY_MAX;
-    const Owned<vxt_detector> detector = newDetector(sized<vxt_detector_desc>());
+    const Owned<vxt_detector> detector = newDetector(sized<vxt_raster_desc>());
     need(vxt_detector_boundary_for(detector.get(), &of.item, 0.5, &boundary));
     EXPECT_EQ(boundary, VXT_BOUNDARY_RANGE);
     of.item.volume = nullptr;

@@ -101,23 +101,27 @@ TEST_F(CGpuTest, AnswersAsTheCppInterfaceDoesByEveryMethodAndProjection) {
             // Outputs by the cheapest method of each projection: pipelines with outputs take seconds on lavapipe.
             const bool outputs = method == CountingMethod::Query || projection == Projection::Certified;
             const Outputs wanted = outputs ? kAll : Outputs{};
-            vxt_detector_desc desc = sized<vxt_detector_desc>();
-            desc.method = static_cast<vxt_method>(method);
-            desc.projection = static_cast<vxt_projection>(projection);
-            desc.filter = vxt_default_filter(desc.method);
-            desc.boundary = VXT_BOUNDARY_RANGE;
-            desc.outputs = cOutputs(wanted);
-            desc.max_depth = wanted.maxDepth;
-            desc.resolution = 1.0 / 8;
+            vxt_certified_desc certified = sized<vxt_certified_desc>();
+            certified.outputs = cOutputs(wanted);
+            certified.max_depth = wanted.maxDepth;
+            certified.resolution = 1.0 / 8;
+            vxt_raster_desc raster = sized<vxt_raster_desc>();
+            raster.method = static_cast<vxt_method>(method);
+            raster.projection = static_cast<vxt_projection>(projection);
+            raster.filter = vxt_default_filter(raster.method);
+            raster.boundary = VXT_BOUNDARY_RANGE;
+            raster.outputs = cOutputs(wanted);
+            raster.max_depth = wanted.maxDepth;
             BlockingDetector cpp = take(BlockingDetector::create(context(),
-                                                                 {.method = method,
-                                                                  .projection = projection,
-                                                                  .filter = defaultFilter(method),
-                                                                  .boundary = Boundary::Range,
-                                                                  .outputs = wanted,
-                                                                  .resolution = 1.0 / 8},
+                                                                 AnyDesc{.method = method,
+                                                                         .projection = projection,
+                                                                         .filter = defaultFilter(method),
+                                                                         .boundary = Boundary::Range,
+                                                                         .outputs = wanted,
+                                                                         .resolution = 1.0 / 8},
                                                                  queue(), kMany));
-            const BatchAnswer answer = ask(*newBlocking(desc), cItem);
+            const BatchAnswer answer =
+                ask(*(projection == Projection::Certified ? newBlocking(certified) : newBlocking(raster)), cItem);
             EXPECT_EQ(wholeDifferenceOf(answer, take(cpp.detect({std::span(&item, 1), scene.view, scene.threshold}))),
                       "")
                 << toString(method) << " " << toString(projection);
@@ -138,9 +142,7 @@ TEST_F(CGpuTest, CountsWhatThePassesOfCertifiedDo) {
     scene.poses.push_back(translation({0.3, 0.1, 0.2}));
     const CScene sides(context_.get(), queue_, scene, twoLabels());
     const COneItem item(sides, scene);
-    vxt_detector_desc desc = sized<vxt_detector_desc>();
-    desc.method = VXT_METHOD_COMPUTE;
-    desc.projection = VXT_PROJECTION_CERTIFIED;
+    vxt_certified_desc desc = sized<vxt_certified_desc>();
     const Owned<vxt_answer> answer = newAnswer();
     vxt_certified_counters counters = sized<vxt_certified_counters>();
     need(vxt_blocking_detector_detect(newBlocking(desc).get(), &item.batch, answer.get()));
@@ -165,21 +167,20 @@ TEST_F(CGpuTest, ResultsHaveTheQueuesThatAreAskedFor) {
     const CScene sides(context_.get(), queue_, scene, twoLabels());
     const COneItem item(sides, scene);
     RawVulkan raw(gpu().device);
-    vxt_detector_desc desc = sized<vxt_detector_desc>();
-    desc.method = VXT_METHOD_COMPUTE;
-    desc.projection = VXT_PROJECTION_CERTIFIED;
+    vxt_certified_desc desc = sized<vxt_certified_desc>();
     desc.counters = 1;
     const Owned<vxt_detector> detector = newDetector(desc);
     vxt_results_desc resultsDesc = sized<vxt_results_desc>();
     vxt_results* none = nullptr;
     resultsDesc.clusters_at_once = 15;
-    EXPECT_EQ(vxt_results_create(context_.get(), &resultsDesc, &none), VXT_ERROR_INVALID_ARGUMENT);
-    resultsDesc.clusters_at_once = VXT_NO_CLUSTERS;
-    const Owned<vxt_results> without = newResults(resultsDesc);
+    EXPECT_EQ(vxt_results_create(detector.get(), &resultsDesc, &none), VXT_ERROR_INVALID_ARGUMENT);
+    const Owned<vxt_detector> raster = newDetector(sized<vxt_raster_desc>());
+    const Owned<vxt_results> without = newResults(*raster, sized<vxt_results_desc>());
     resultsDesc.clusters_at_once = 32;
-    const Owned<vxt_results> with = newResults(resultsDesc);
+    const Owned<vxt_results> with = newResults(*detector, resultsDesc);
     const VkCommandBuffer commands = raw.begin();
-    EXPECT_EQ(vxt_detector_cmd_detect(detector.get(), commands, &item.batch, without.get()), VXT_ERROR_LIMIT_EXCEEDED);
+    EXPECT_EQ(vxt_detector_cmd_detect(detector.get(), commands, &item.batch, without.get()),
+              VXT_ERROR_INVALID_ARGUMENT);
     need(vxt_detector_cmd_detect(detector.get(), commands, &item.batch, with.get()));
     need(vxt_results_cmd_read_back(with.get(), commands));
     raw.submitAndWait(commands);
@@ -200,16 +201,15 @@ TEST_F(CGpuTest, RecordsIntoTheCallersCommandBuffer) {
     const auto mesh = made(vxt_mesh_destroy, vxt_mesh_create, context_.get(), at(cMesh(scene.mesh)), nullptr);
     const auto labels = made(vxt_labels_destroy, vxt_labels_create, at(cVolume(twoLabels())));
     const auto map = made(vxt_label_map_destroy, vxt_label_map_create, context_.get(), labels.get(), "map");
-    vxt_detector_desc desc = sized<vxt_detector_desc>();
+    vxt_raster_desc desc = sized<vxt_raster_desc>();
     desc.outputs = cOutputs(kAll);
     const Owned<vxt_detector> detector = newDetector(desc);
     vxt_results_desc resultsDesc = sized<vxt_results_desc>();
-    resultsDesc.outputs = desc.outputs;
     resultsDesc.triangle_room = 2;
     resultsDesc.label_room = 2;
     resultsDesc.timestamps = 1;
     resultsDesc.queue_family = queue_.family;
-    const Owned<vxt_results> results = newResults(resultsDesc);
+    const Owned<vxt_results> results = newResults(*detector, resultsDesc);
 
     const VkCommandBuffer commands = raw.begin();
     need(vxt_volume_cmd_upload(volume.get(), commands));
@@ -262,7 +262,7 @@ TEST_F(CGpuTest, AnswersGoIntoTheCallersBuffer) {
     const RandomScene scene = halfOpaque();
     const CScene sides(context_.get(), queue_, scene, twoLabels());
     COneItem of(sides, scene);
-    const Owned<vxt_detector> detector = newDetector(sized<vxt_detector_desc>());
+    const Owned<vxt_detector> detector = newDetector(sized<vxt_raster_desc>());
     RawVulkan raw(gpu().device);
     const std::vector<std::byte> untouched(1024, std::byte{0xcd});
     const RawVulkan::HostBuffer mine =
@@ -271,10 +271,10 @@ TEST_F(CGpuTest, AnswersGoIntoTheCallersBuffer) {
     vxt_results_desc desc = sized<vxt_results_desc>();
     desc.into = {mine.buffer, 512, sizeof(PairResult) - 1};
     vxt_results* none = nullptr;
-    EXPECT_EQ(vxt_results_create(context_.get(), &desc, &none), VXT_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(vxt_results_create(detector.get(), &desc, &none), VXT_ERROR_INVALID_ARGUMENT);
     EXPECT_STREQ(vxt_last_error(context_.get()), "ResultsDesc::into has 23 bytes, 1 pairs need 24");
     desc.into.size = 512;
-    const Owned<vxt_results> results = newResults(desc);
+    const Owned<vxt_results> results = newResults(*detector, desc);
     vxt_buffer_range range{};
     need(vxt_results_on_device(results.get(), VXT_DEVICE_PAIRS, &range));
     EXPECT_EQ(range.buffer, mine.buffer);
@@ -308,7 +308,7 @@ TEST_F(CGpuTest, ItemsOfALaterHeaderStandFartherApart) {
     }
     of.batch.items = &items[0].known;
     of.batch.item_count = 2;
-    const Owned<vxt_blocking_detector> detector = newBlocking(sized<vxt_detector_desc>());
+    const Owned<vxt_blocking_detector> detector = newBlocking(sized<vxt_raster_desc>());
     const BatchAnswer both = ask(*detector, of);
     ASSERT_EQ(both.pairs.size(), 2U);
     EXPECT_EQ(both.pairs[0].count, 128U);
@@ -329,8 +329,8 @@ TEST_F(CGpuTest, ARingHasASlotForEachFrame) {
     const RandomScene scene = halfOpaque();
     const CScene sides(context_.get(), queue_, scene, twoLabels());
     COneItem of(sides, scene);
-    const Owned<vxt_detector> detector = newDetector(sized<vxt_detector_desc>());
-    const auto ring = made(vxt_result_ring_destroy, vxt_result_ring_create, context_.get(), 2, nullptr);
+    const Owned<vxt_detector> detector = newDetector(sized<vxt_raster_desc>());
+    const auto ring = made(vxt_result_ring_destroy, vxt_result_ring_create, detector.get(), 2, nullptr);
     RawVulkan raw(gpu().device);
     const Owned<vxt_answer> answer = newAnswer();
     EXPECT_EQ(vxt_result_ring_read(ring.get(), 0, answer.get()), VXT_ERROR_NOT_READY);

@@ -22,7 +22,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr DetectorDesc kDevice{.method = CountingMethod::Compute, .projection = Projection::Certified};
+constexpr AnyDesc kDevice{.method = CountingMethod::Compute, .projection = Projection::Certified};
 
 cpu::Detector hostDetector(bool stopAtFirst = false) {
     return take(cpu::Detector::create({.stopAtFirst = stopAtFirst, .projection = Projection::Certified}));
@@ -83,7 +83,7 @@ TEST_F(CertifiedProjectionTest, IsTheHostBitForBitOnAHead) {
         const BatchItem item = sides.item(poses);
         const cpu::BatchItem hostItem = sides.hostItem(poses);
         for (const bool stopAtFirst : {false, true}) {
-            DetectorDesc desc = kDevice;
+            AnyDesc desc = kDevice;
             desc.stopAtFirst = stopAtFirst;
             const BatchAnswer onDevice = take(detector(desc).detect({{&item, 1}, {}, kDefaultThreshold}));
             const BatchAnswer onHost = take(hostDetector(stopAtFirst).detect({{&hostItem, 1}, {}, kDefaultThreshold}));
@@ -155,7 +155,7 @@ TEST_F(CertifiedProjectionTest, OutputsAreTheHosts) {
     const BatchItem item = sides.item(poses);
     const cpu::BatchItem hostItem = sides.hostItem(poses);
     constexpr Outputs kOutputs{.triangles = true, .contacts = true, .bounds = true};
-    DetectorDesc desc = kDevice;
+    AnyDesc desc = kDevice;
     desc.outputs = kOutputs;
     const BatchAnswer onDevice = take(detector(desc).detect({{&item, 1}, {}, kDefaultThreshold}));
     const BatchAnswer onHost =
@@ -176,7 +176,7 @@ TEST_F(CertifiedProjectionTest, OutputsAreTheHosts) {
 /// Found by crossing it, and by no look at the witness's position.
 TEST_F(CertifiedProjectionTest, TheWitnessOfASpikeIsTheHosts) {
     constexpr Outputs kOutputs{.triangles = true, .contacts = true, .bounds = true};
-    DetectorDesc desc = kDevice;
+    AnyDesc desc = kDevice;
     desc.outputs = kOutputs;
     BlockingDetector device = detector(desc);
     cpu::Detector host = take(cpu::Detector::create({.projection = Projection::Certified, .outputs = kOutputs}));
@@ -287,7 +287,7 @@ TEST_F(CertifiedProjectionTest, WhatIsOpenIsDecidedAgainAsOnTheHost) {
         const cpu::BatchItem hostItem = sides.hostItem(poses);
         constexpr Outputs kOutputs{.triangles = true, .contacts = true, .bounds = true};
         for (const bool stopAtFirst : {false, true}) {
-            DetectorDesc desc = kDevice;
+            AnyDesc desc = kDevice;
             desc.stopAtFirst = stopAtFirst;
             desc.outputs = stopAtFirst ? Outputs{} : kOutputs;
             cpu::Detector host = take(cpu::Detector::create(
@@ -339,7 +339,7 @@ TEST_F(CertifiedProjectionTest, YesAndNoAreTheHostsOnManyPoses) {
     const std::vector<Mat4> poses = randomPoses(head.grid, 400, 1, random);
     const BatchItem item = sides.item(poses);
     const cpu::BatchItem hostItem = sides.hostItem(poses);
-    DetectorDesc desc = kDevice;
+    AnyDesc desc = kDevice;
     desc.stopAtFirst = true;
     const BatchAnswer onDevice = take(detector(desc).detect({{&item, 1}, {}, kDefaultThreshold}));
     const BatchAnswer onHost = take(hostDetector(true).detect({{&hostItem, 1}, {}, kDefaultThreshold}));
@@ -401,13 +401,9 @@ TEST_F(CertifiedProjectionTest, FarPosesAreNoneWhateverTheBuffersHeld) {
 }
 
 TEST_F(CertifiedProjectionTest, RefusesWhatItCannotAnswer) {
-    DetectorDesc query = kDevice;
-    query.method = CountingMethod::Query;
-    EXPECT_THAT(Detector::create(context(), query).error().text, HasSubstr("compute and cpu"));
-    DetectorDesc coarse = kDevice;
-    coarse.resolution = 2;
-    EXPECT_THAT(Detector::create(context(), coarse).error().text, HasSubstr("resolution 2"));
-    EXPECT_FALSE(Detector::create(context(), {.method = CountingMethod::Compute, .stopAtFirst = true}).ok());
+    EXPECT_EQ(Detector::raster(context(), {.projection = Projection::Certified}).error().text,
+              "RasterDesc::projection is certified; make a certified detector with Detector::certified()");
+    EXPECT_THAT(Detector::certified(context(), {.resolution = 2}).error().text, HasSubstr("resolution 2"));
 
     const VolumeData image = take(makeBuiltinVolume("sphere:18"));
     const MeshData triangles = take(makeEllipsoid(100));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "device/detector/detector_impl.h"
 #include "raw_fixture.h"
 #include "support/scenes.h"
 #include "voxtact/samples.h"
@@ -33,12 +34,12 @@ class CertifiedTest : public RawGpuTest {
     }
 
     /// With Results of so many `pairs` and `clusters` at once.
-    Answered detect(const DetectorDesc& desc, const Batch& batch, std::uint32_t pairs, std::uint32_t clusters) {
+    Answered detect(const AnyDesc& desc, const Batch& batch, std::uint32_t pairs, std::uint32_t clusters) {
         return detect(take(Detector::create(context(), desc)), batch, pairs, clusters);
     }
     Answered detect(const Detector& detector, const Batch& batch, std::uint32_t pairs, std::uint32_t clusters) {
-        const DetectorDesc& desc = detector.desc();
-        Results results = take(Results::create(context(), {.maxPairs = pairs, .clustersAtOnce = clusters}));
+        const PassDesc& desc = detector.impl().desc;
+        Results results = take(Results::create(detector, {.maxPairs = pairs, .clustersAtOnce = clusters}));
         const VkCommandBuffer commands = raw().begin();
         take(detector.cmdDetect(commands, batch, results));
         take(results.cmdReadBack(commands));

@@ -14,7 +14,7 @@
 namespace voxtact::test {
 namespace {
 
-constexpr DetectorDesc kCount{.method = CountingMethod::Compute, .projection = Projection::Certified, .counters = true};
+constexpr AnyDesc kCount{.method = CountingMethod::Compute, .projection = Projection::Certified, .counters = true};
 
 class LeftTest : public CertifiedTest {
   protected:

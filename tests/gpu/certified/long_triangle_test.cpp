@@ -50,7 +50,7 @@ TEST_F(LongTrianglesTest, AreCountedAsOnTheHost) {
     const std::array points{ControlPoint{0, 0}, ControlPoint{255, 1}};
     const MeshData mesh = across(random, kSide, kTriangles);
     const std::array poses{identity(), translation({20, -10, 5}), translation({70, 60, -65})};
-    DetectorDesc desc{.method = CountingMethod::Compute, .projection = Projection::Certified, .counters = true};
+    AnyDesc desc{.method = CountingMethod::Compute, .projection = Projection::Certified, .counters = true};
     for (const bool clusters : {true, false}) {
         const Sides sides(context(), queue(), volume.view(), {points, {0, 255}, kDefaultTableSize}, mesh.view(),
                           clusters);

@@ -15,8 +15,7 @@ constexpr std::size_t kPoses = 1000;
 
 class AgreementTest : public GpuTest {
   protected:
-    std::vector<std::uint64_t> counts(const DetectorDesc& desc, const BatchItem& item, const View& view,
-                                      double threshold) {
+    std::vector<std::uint64_t> counts(const AnyDesc& desc, const BatchItem& item, const View& view, double threshold) {
         BlockingDetector one = detector(desc);
         const BatchAnswer answer = take(one.detect({std::span(&item, 1), view, threshold}));
         std::vector<std::uint64_t> out;
@@ -72,8 +71,8 @@ TEST_F(AgreementTest, QueriesCountRightInLongSubmissions) {
     const std::vector<Mat4> poses = randomPoses(head.grid, 3 * kPoses, 1.0, random);
     const BatchItem item{&scalpel, &volume, &function, poses};
     const View view{framingCamera(head.grid, 512, 512), 512, 512};
-    const DetectorDesc query{.method = CountingMethod::Query, .boundary = Boundary::Range};
-    const DetectorDesc atomic{.method = CountingMethod::Atomic, .boundary = Boundary::Range};
+    const AnyDesc query{.method = CountingMethod::Query, .boundary = Boundary::Range};
+    const AnyDesc atomic{.method = CountingMethod::Atomic, .boundary = Boundary::Range};
     const std::vector<std::uint64_t> expected = counts(atomic, item, view, kDefaultThreshold);
     for (int turn = 0; turn < 4; ++turn) {
         EXPECT_EQ(counts(query, item, view, kDefaultThreshold), expected) << "turn " << turn;

@@ -82,7 +82,7 @@ class DrawSizeTest : public GpuTest {
     }
 
     /// A batch of two items, one of a mesh without indices, in a context of the interposed functions.
-    BatchAnswer detect(const DetectorDesc& desc, std::uint64_t fragmentsAtOnce) {
+    BatchAnswer detect(const AnyDesc& desc, std::uint64_t fragmentsAtOnce) {
         ContextDesc given = gpu().device.contextDesc();
         given.getInstanceProcAddr = Interception::getInstanceProcAddr();
         given.fragmentsAtOnce = fragmentsAtOnce;
@@ -133,10 +133,10 @@ TEST_F(DrawSizeTest, NoAnswerDependsOnIt) {
                 }
                 SCOPED_TRACE(std::string(toString(method)) + " " + toString(projection) +
                              (triangles ? " outputs" : ""));
-                const DetectorDesc desc{.method = method,
-                                        .projection = projection,
-                                        .filter = Filter::Exact,
-                                        .outputs = {.triangles = triangles}};
+                const AnyDesc desc{.method = method,
+                                   .projection = projection,
+                                   .filter = Filter::Exact,
+                                   .outputs = {.triangles = triangles}};
                 const std::uint64_t pixels =
                     projection == Projection::DominantAxis ? 32U * 32U : std::uint64_t{kSide} * kSide;
                 const BatchAnswer whole = detect(desc, 0);
@@ -288,7 +288,7 @@ TEST_F(DrawSizeTest, AMeshMayNeedMoreWorkGroupsThanThereAre) {
         GTEST_SKIP() << "no compute on this device";
     }
     for (const bool triangles : {false, true}) {
-        const DetectorDesc desc{.method = CountingMethod::Compute, .outputs = {.triangles = triangles}};
+        const AnyDesc desc{.method = CountingMethod::Compute, .outputs = {.triangles = triangles}};
         seen.mostGroups = 0;
         const BatchAnswer whole = detect(desc, 0);
         seen.mostGroups = 2;

@@ -76,7 +76,7 @@ class HostAgreementTest : public GpuTest {
 
     [[nodiscard]] Detectors makeDetectors(Boundary boundary, Projection projection = Projection::View,
                                           std::uint32_t samplesPerVoxel = kDefaultSamplesPerVoxel) const {
-        DetectorDesc desc{.projection = projection, .boundary = boundary, .samplesPerVoxel = samplesPerVoxel};
+        AnyDesc desc{.projection = projection, .boundary = boundary, .samplesPerVoxel = samplesPerVoxel};
         std::vector<BlockingDetector> raster;
         for (const CountingMethod method : methodsThatCount(Coverage::Rasteriser)) {
             desc.method = method;

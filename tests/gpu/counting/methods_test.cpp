@@ -39,7 +39,7 @@ TEST_F(MethodsTest, QueryNeedsPreciseQueries) {
     EXPECT_FALSE(context.supports(CountingMethod::Query));
     EXPECT_TRUE(context.supports(CountingMethod::QueryAny));
     EXPECT_EQ(context.defaultMethod(), CountingMethod::Atomic);
-    const Result<Detector> detector = Detector::create(context, {.method = CountingMethod::Query});
+    const Result<Detector> detector = Detector::raster(context, {.method = CountingMethod::Query});
     ASSERT_FALSE(detector.ok());
     EXPECT_EQ(detector.error().code, ErrorCode::Unsupported);
     EXPECT_THAT(detector.error().text, HasSubstr("occlusionQueryPrecise"));
@@ -54,7 +54,7 @@ TEST_F(MethodsTest, AtomicNeedsFragmentStores) {
     const Context context = take(Context::create(device.contextDesc()));
     EXPECT_FALSE(context.supports(CountingMethod::Atomic));
     EXPECT_EQ(context.defaultMethod(), CountingMethod::Query);
-    const Result<Detector> detector = Detector::create(context, {.method = CountingMethod::Atomic});
+    const Result<Detector> detector = Detector::raster(context, {.method = CountingMethod::Atomic});
     ASSERT_FALSE(detector.ok());
     EXPECT_THAT(detector.error().text, HasSubstr("fragmentStoresAndAtomics"));
     // The queries still count: their pipelines hold no storage writes.
@@ -77,10 +77,10 @@ TEST_F(MethodsTest, ComputeNeedsNoFeature) {
          {Projection::View, Projection::TwoView, Projection::DominantAxis, Projection::Certified}) {
         // Floats that are not as they should be are the device's, no feature.
         if (projection != Projection::Certified || missingFloatControl(context.impl().floatControls) == nullptr) {
-            take(Detector::create(context, {.method = CountingMethod::Compute, .projection = projection}));
+            take(Detector::create(context, AnyDesc{.method = CountingMethod::Compute, .projection = projection}));
         }
     }
-    EXPECT_THAT(Detector::create(context, {.method = CountingMethod::Cpu}).error().text, HasSubstr("voxtact/cpu.h"));
+    EXPECT_THAT(Detector::raster(context, {.method = CountingMethod::Cpu}).error().text, HasSubstr("voxtact/cpu.h"));
 }
 
 PFN_vkGetPhysicalDeviceProperties2 realProperties = nullptr;
@@ -126,15 +126,15 @@ TEST_F(MethodsTest, CertifiedNeedsIeeeFloats) {
     loader.replace("vkGetPhysicalDeviceProperties2", &propertiesOfFloats);
     loader.replace("vkCreateShaderModule", &keptModule);
     desc.getInstanceProcAddr = Interception::getInstanceProcAddr();
-    constexpr DetectorDesc kCertified{.method = CountingMethod::Compute, .projection = Projection::Certified};
+    constexpr AnyDesc kCertified{.method = CountingMethod::Compute, .projection = Projection::Certified};
     for (const bool bare : {false, true}) {
         bareFloats = bare;
         madeModules.clear();
         const Context context = take(Context::create(desc));
         EXPECT_TRUE(context.supports(CountingMethod::Compute, Projection::View));
         EXPECT_FALSE(context.supports(CountingMethod::Query, Projection::Certified));
-        EXPECT_TRUE(Detector::create(context, {.method = CountingMethod::Compute}).ok());
-        EXPECT_TRUE(Detector::create(context, {.method = CountingMethod::Query}).ok());
+        EXPECT_TRUE(Detector::raster(context, {.method = CountingMethod::Compute}).ok());
+        EXPECT_TRUE(Detector::raster(context, {.method = CountingMethod::Query}).ok());
         const Result<Detector> certified = Detector::create(context, kCertified);
         ASSERT_EQ(certified.ok(), context.supports(CountingMethod::Compute, Projection::Certified));
         EXPECT_FALSE(certified.ok() && bare);

@@ -37,7 +37,7 @@ View boxView(std::uint32_t side) {
 class ProjectionsTest : public GpuTest {
   protected:
     /// The count of a mesh in an opaque unit cube, which all methods must agree on.
-    std::uint64_t countOf(const MeshData& mesh, DetectorDesc desc, const View& view, const Grid& grid = unitGrid(16)) {
+    std::uint64_t countOf(const MeshData& mesh, AnyDesc desc, const View& view, const Grid& grid = unitGrid(16)) {
         const Mesh uploaded = upload(mesh);
         const Volume volume = upload(makeBytes(grid, [](auto...) { return 255.0; }));
         const TransferFunction function = upload(byteRamp(), {0, 255});
@@ -58,7 +58,7 @@ class ProjectionsTest : public GpuTest {
         return first;
     }
 
-    std::vector<std::uint64_t> counts(const DetectorDesc& desc, const BatchItem& item, const View& view,
+    std::vector<std::uint64_t> counts(const AnyDesc& desc, const BatchItem& item, const View& view,
                                       double threshold = kDefaultThreshold) {
         BlockingDetector one = detector(desc);
         std::vector<std::uint64_t> out;
@@ -100,7 +100,7 @@ TEST_F(ProjectionsTest, TwoViewIsTheViewAndTheSideView) {
     const View view{framingCamera(head.grid, 200, 160), 200, 160};
     const View side{sideView(view.clip_from_world), 200, 160};
     for (const CountingMethod method : countingOnes()) {
-        DetectorDesc desc{.method = method, .filter = defaultFilter(method)};
+        AnyDesc desc{.method = method, .filter = defaultFilter(method)};
         std::vector<std::uint64_t> expected = counts(desc, item, view);
         const std::vector<std::uint64_t> second = counts(desc, item, side);
         std::uint64_t sides = 0;
@@ -141,7 +141,7 @@ TEST_F(ProjectionsTest, DominantAxisOfTheRasteriserIsThatOfCompute) {
     const Mesh scalpel = upload(take(makeScalpel()));
     const std::vector<Mat4> poses = randomPoses(head.grid, 300, 1.2, random);
     const BatchItem item{&scalpel, &volume, &function, poses};
-    DetectorDesc desc{.projection = Projection::DominantAxis, .filter = Filter::Exact, .samplesPerVoxel = 4};
+    AnyDesc desc{.projection = Projection::DominantAxis, .filter = Filter::Exact, .samplesPerVoxel = 4};
     const std::vector<std::uint64_t> raster = counts(desc, item, {});
     desc.method = CountingMethod::Compute;
     const std::vector<std::uint64_t> compute = counts(desc, item, {});
@@ -234,12 +234,12 @@ TEST_F(ProjectionsTest, MeshesOfTheCallersAreReadAsStorage) {
 TEST_F(ProjectionsTest, BadOnesAreRefused) {
     for (const std::uint32_t samples : {0U, 17U}) {
         const Result<Detector> detector =
-            Detector::create(context(), {.projection = Projection::DominantAxis, .samplesPerVoxel = samples});
+            Detector::raster(context(), {.projection = Projection::DominantAxis, .samplesPerVoxel = samples});
         ASSERT_FALSE(detector.ok());
         EXPECT_EQ(detector.error().code, ErrorCode::InvalidArgument);
         EXPECT_THAT(detector.error().text, HasSubstr("must be 1 to 16"));
     }
-    EXPECT_THAT(Detector::create(context(), {.projection = static_cast<Projection>(7)}).error().text,
+    EXPECT_THAT(Detector::raster(context(), {.projection = static_cast<Projection>(7)}).error().text,
                 HasSubstr("no projection number 7"));
     const Mesh mesh = upload(makeFlat(0, 1, 0, 1, 0.5));
     const TransferFunction function = upload(byteRamp(), {0, 255});
@@ -247,7 +247,7 @@ TEST_F(ProjectionsTest, BadOnesAreRefused) {
     const Mat4 pose = identity();
     const BatchItem item{&mesh, &volume, &function, std::span(&pose, 1)};
     for (const CountingMethod method : countingOnes()) {
-        DetectorDesc desc{.method = method, .projection = Projection::DominantAxis, .samplesPerVoxel = 16};
+        AnyDesc desc{.method = method, .projection = Projection::DominantAxis, .samplesPerVoxel = 16};
         BlockingDetector fine = detector(desc);
         const Result<BatchAnswer> answer = fine.detect({std::span(&item, 1), {}, 0.5});
         if (context().maxViewport().width >= 32000 && method != CountingMethod::Compute) {
@@ -263,7 +263,7 @@ TEST_F(ProjectionsTest, BadOnesAreRefused) {
 }
 
 TEST_F(ProjectionsTest, OverestimationNeedsItsExtension) {
-    const DetectorDesc desc{.projection = Projection::DominantAxis, .overestimate = true};
+    const AnyDesc desc{.projection = Projection::DominantAxis, .overestimate = true};
     ContextDesc without = gpu().device.contextDesc();
     without.enabledDeviceExtensions = {};
     const Context context = take(Context::create(without));
@@ -272,12 +272,12 @@ TEST_F(ProjectionsTest, OverestimationNeedsItsExtension) {
     EXPECT_EQ(detector.error().code, ErrorCode::Unsupported);
     EXPECT_THAT(detector.error().text, HasSubstr("VK_EXT_conservative_rasterization"));
     for (const Projection projection : {Projection::View, Projection::TwoView}) {
-        const Result<Detector> refused = Detector::create(context, {.projection = projection, .overestimate = true});
+        const Result<Detector> refused = Detector::raster(context, {.projection = projection, .overestimate = true});
         ASSERT_FALSE(refused.ok());
         EXPECT_EQ(refused.error().code, ErrorCode::InvalidArgument);
         EXPECT_THAT(refused.error().text, HasSubstr(toString(projection)));
     }
-    const Result<Detector> refused = Detector::create(
+    const Result<Detector> refused = Detector::raster(
         context, {.method = CountingMethod::Compute, .projection = Projection::DominantAxis, .overestimate = true});
     ASSERT_FALSE(refused.ok());
     EXPECT_EQ(refused.error().code, ErrorCode::InvalidArgument);
@@ -300,7 +300,7 @@ TEST_F(OverestimationTest, CountsEveryPixelThatIsTouched) {
     const TransferFunction function = upload(byteRamp(), {0, 255});
     const Mat4 pose = identity();
     const BatchItem item{&mesh, &volume, &function, std::span(&pose, 1)};
-    DetectorDesc desc{.projection = Projection::DominantAxis};
+    AnyDesc desc{.projection = Projection::DominantAxis};
     const std::uint64_t plain = detectOne(desc, item, {}).count;
     EXPECT_EQ(plain, 3U * 1U);
     desc.overestimate = true;

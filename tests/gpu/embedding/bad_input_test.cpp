@@ -107,11 +107,12 @@ TEST_F(BadInputTest, TableBeyondTheLimits) {
 }
 
 TEST_F(BadInputTest, MorePairsThanABufferHolds) {
-    const Result<Results> results = Results::create(context(), {.maxPairs = UINT32_MAX});
+    const Detector detector = take(Detector::raster(context(), {}));
+    const Result<Results> results = Results::create(detector, {.maxPairs = UINT32_MAX});
     ASSERT_FALSE(results.ok());
     EXPECT_EQ(results.error().code, ErrorCode::LimitExceeded);
     EXPECT_THAT(results.error().text, HasSubstr("maxStorageBufferRange"));
-    EXPECT_FALSE(Results::create(context(), {.maxPairs = 0}).ok());
+    EXPECT_FALSE(Results::create(detector, {.maxPairs = 0}).ok());
 }
 
 TEST_F(BadInputTest, MorePairsThanThereIsRoomForBesideTheQueues) {
@@ -121,7 +122,8 @@ TEST_F(BadInputTest, MorePairsThanThereIsRoomForBesideTheQueues) {
     const VkDeviceSize most = context().impl().maxAllocation;
     const std::string limit = range <= most ? "maxStorageBufferRange is " + std::to_string(range)
                                             : "maxMemoryAllocationSize is " + std::to_string(most);
-    const Result<Results> results = Results::create(context(), {.maxPairs = pairs, .clustersAtOnce = 16});
+    const Detector detector = take(Detector::certified(context()));
+    const Result<Results> results = Results::create(detector, {.maxPairs = pairs});
     ASSERT_FALSE(results.ok());
     EXPECT_EQ(results.error().code, ErrorCode::LimitExceeded);
     EXPECT_THAT(
@@ -198,10 +200,11 @@ TEST_F(BadInputTest, WrappedMeshesThatNoBufferHolds) {
 }
 
 TEST_F(BadInputTest, ReadingTooEarlyIsAnError) {
-    Results results = take(Results::create(context(), {.maxPairs = 4}));
+    const Detector detector = take(Detector::raster(context(), {}));
+    Results results = take(Results::create(detector, {.maxPairs = 4}));
     EXPECT_EQ(results.read().error().code, ErrorCode::NotReady);
     EXPECT_EQ(results.gpuMilliseconds().error().code, ErrorCode::NotReady);
-    ResultRing ring = take(ResultRing::create(context(), 2, {.maxPairs = 4}));
+    ResultRing ring = take(ResultRing::create(detector, 2, {.maxPairs = 4}));
     EXPECT_EQ(ring.read(0).error().code, ErrorCode::NotReady);
     EXPECT_TRUE(ring.begin(5).ok());
     EXPECT_THAT(ring.read(3).error().text, HasSubstr("taken by frame 5"));
@@ -262,7 +265,7 @@ TEST_F(BadInputTest, ALostDeviceStaysLost) {
     EXPECT_EQ(mesh.error().vkResult, VK_ERROR_DEVICE_LOST);
     EXPECT_TRUE(context.deviceLost());
     EXPECT_EQ(Mesh::create(context, square.view()).error().code, ErrorCode::DeviceLost);
-    EXPECT_EQ(Detector::create(context, {}).error().code, ErrorCode::DeviceLost);
+    EXPECT_EQ(Detector::raster(context, {}).error().code, ErrorCode::DeviceLost);
     EXPECT_FALSE(this->context().deviceLost()) << "another context on the same device is not told";
 }
 
@@ -325,8 +328,8 @@ TEST_F(BadInputTest, AnAtomicCounterCarriesBeyond32Bits) {
         data.indices.resize(3 * (std::uint64_t{1} << 32U) / pixels / views, 0);
         const Mesh mesh = take(Mesh::upload(context, queue(), data.view()));
         const BatchItem item{&mesh, &volume, &function, std::span(&pose_, 1)};
-        BlockingDetector atomic = take(
-            BlockingDetector::create(context, {.method = CountingMethod::Atomic, .projection = projection}, queue()));
+        BlockingDetector atomic = take(BlockingDetector::create(
+            context, RasterDesc{.method = CountingMethod::Atomic, .projection = projection}, queue()));
         const BatchAnswer answer = take(atomic.detect({std::span(&item, 1), flatView(0, 1, 4096, 4096), 0.5}));
         EXPECT_EQ(answer.pairs[0].count, UINT32_MAX - 9 + std::uint64_t{32} * 32) << toString(projection);
     }

@@ -31,8 +31,8 @@ class CallerResultsTest : public RawGpuTest {
         return raw().makeBuffer(std::span<const std::byte>(std::vector<std::byte>(size, kUntouched)), kUsage);
     }
     /// Everything that a detector can be made for, with poses from the host and from the device.
-    std::vector<DetectorDesc> detectors() {
-        std::vector<DetectorDesc> out;
+    std::vector<AnyDesc> detectors() {
+        std::vector<AnyDesc> out;
         for (const Projection projection : projections()) {
             for (const CountingMethod method : countingMethods()) {
                 if (method == CountingMethod::Cpu || !context().supports(method, projection)) {
@@ -52,7 +52,7 @@ class CallerResultsTest : public RawGpuTest {
         raw().submitAndWait(commands);
     }
     std::string refusal(const ResultsDesc& desc) {
-        const Result<Results> made = Results::create(context(), desc);
+        const Result<Results> made = Results::create(take(Detector::raster(context(), {})), desc);
         if (made.ok()) {
             return "it is not refused";
         }
@@ -99,7 +99,7 @@ TEST_F(CallerResultsTest, EveryDetectorWritesWhatItWouldWriteIntoItsOwn) {
     const VkDeviceSize room = kRoom * sizeof(PairResult);
     const VkDeviceSize written = scene.poses.size() * sizeof(PairResult);
     std::size_t hits = 0;
-    for (const DetectorDesc& desc : detectors()) {
+    for (const AnyDesc& desc : detectors()) {
         SCOPED_TRACE(std::string(toString(desc.projection)) + " " + toString(desc.method) +
                      (desc.devicePoses ? ", poses on the device" : ""));
         const Detector detector = take(Detector::create(context(), desc));
@@ -110,13 +110,13 @@ TEST_F(CallerResultsTest, EveryDetectorWritesWhatItWouldWriteIntoItsOwn) {
             item.world_from_object = scene.poses;
         }
         const Batch batch{std::span(&item, 1), scene.view, kDefaultThreshold};
-        Results own = take(Results::create(context(), {.maxPairs = kRoom}));
+        Results own = take(Results::create(detector, {.maxPairs = kRoom}));
         run(detector, batch, own);
         const std::vector<std::byte> wanted = bytesOf(take(own.read()));
 
         const RawVulkan::HostBuffer mine = untouched(kAhead + room + kAhead);
         Results results =
-            take(Results::create(context(), {.maxPairs = kRoom, .into = {mine.buffer, kAhead, room + kAhead}}));
+            take(Results::create(detector, {.maxPairs = kRoom, .into = {mine.buffer, kAhead, room + kAhead}}));
         EXPECT_EQ(results.buffer(), mine.buffer);
         EXPECT_EQ(results.pairResults().offset, kAhead);
         EXPECT_EQ(results.pairResults().size, room);
@@ -140,8 +140,8 @@ TEST_F(CallerResultsTest, OutputsAreThoseOfResultsWithABufferOfTheirOwn) {
     const HeadAndScalpel scene(context(), queue(), random);
     const BatchItem item{&scene.mesh, &scene.volume, &scene.function, scene.poses};
     const Batch batch{std::span(&item, 1), scene.view, kDefaultThreshold};
-    for (const DetectorDesc& each : detectors()) {
-        DetectorDesc desc = each;
+    for (const AnyDesc& each : detectors()) {
+        AnyDesc desc = each;
         desc.outputs = {.triangles = true, .contacts = true, .bounds = true};
         if (desc.devicePoses || desc.method == CountingMethod::QueryAny) {
             continue;
@@ -149,12 +149,11 @@ TEST_F(CallerResultsTest, OutputsAreThoseOfResultsWithABufferOfTheirOwn) {
         SCOPED_TRACE(std::string(toString(desc.projection)) + " " + toString(desc.method));
         const Detector detector = take(Detector::create(context(), desc));
         const RawVulkan::HostBuffer mine = untouched(kAhead + 30 * sizeof(PairResult));
-        ResultsDesc resultsDesc{.maxPairs = 30,
-                                .room = OutputRoom{.triangles = std::uint64_t{30} * scene.mesh.triangles()}};
+        ResultsDesc resultsDesc{.maxPairs = 30, .room = {.triangles = std::uint64_t{30} * scene.mesh.triangles()}};
         BatchAnswer wanted;
         BatchAnswer found;
         for (BatchAnswer* answer : {&wanted, &found}) {
-            Results results = take(Results::create(context(), resultsDesc));
+            Results results = take(Results::create(detector, resultsDesc));
             run(detector, batch, results);
             take(results.readOutputs(*answer));
             resultsDesc.into = {mine.buffer, kAhead, 30 * sizeof(PairResult)};
@@ -179,14 +178,14 @@ TEST_F(CallerResultsTest, EachFrameOfARingHasItsPart) {
         context(), queue(), makeBytes(unitGrid(4), [](auto...) { return 255.0; }).view(), {.bricks = true}));
     const TransferFunction function = upload(byteRamp(), {0, 255});
     const Mesh mesh = upload(makeFlat(0, 1, 0, 1, 0.5));
-    const Detector detector = take(Detector::create(context(), {.method = CountingMethod::Atomic}));
+    const Detector detector = take(Detector::raster(context(), {.method = CountingMethod::Atomic}));
     constexpr std::uint32_t kFrames = 3;
     constexpr std::uint32_t kPairs = 11; // 264 bytes: two multiples of 256
     static_assert(resultBytes(kPairs) == 512);
     const VkDeviceSize size = (kFrames - 1) * resultBytes(kPairs) + kPairs * sizeof(PairResult);
     const RawVulkan::HostBuffer mine = untouched(kAhead + size);
     ResultRing ring =
-        take(ResultRing::create(context(), kFrames, {.maxPairs = kPairs, .into = {mine.buffer, kAhead, size}}));
+        take(ResultRing::create(detector, kFrames, {.maxPairs = kPairs, .into = {mine.buffer, kAhead, size}}));
     for (std::uint64_t frame = 0; frame < kFrames; ++frame) {
         std::vector<Mat4> poses(kPairs, translation({0, 0, 9}));
         std::fill_n(poses.begin(), frame + 1, identity());
@@ -213,11 +212,10 @@ TEST_F(CallerResultsTest, AYesIsOne) {
     const Mesh mesh = upload(makeFlat(-3, 4, -2.5, 3.5, 0.43));
     const std::vector<Mat4> poses(10, identity());
     const BatchItem item{&mesh, &volume, &function, poses};
-    DetectorDesc desc{.method = CountingMethod::Compute, .projection = Projection::Certified};
-    Results results = take(Results::create(context(), {.maxPairs = 10}));
     for (const bool yesNo : {false, true}) {
-        desc.stopAtFirst = yesNo;
-        run(take(Detector::create(context(), desc)), {{&item, 1}}, results);
+        const Detector detector = take(Detector::certified(context(), {.stopAtFirst = yesNo}));
+        Results results = take(Results::create(detector, {.maxPairs = 10}));
+        run(detector, {{&item, 1}}, results);
         for (const PairResult& pair : take(results.read())) {
             EXPECT_EQ(pair.countLow == 1, yesNo) << "pair " << pair.pair << ": " << pair.countLow;
         }
@@ -238,11 +236,12 @@ TEST_F(CallerResultsTest, WhatHasNoRoomIsRefusedByName) {
     const VkDeviceSize last = std::numeric_limits<VkDeviceSize>::max() / 4096 * 4096;
     EXPECT_THAT(refusal({.maxPairs = 10, .into = {mine.buffer, last, 4096}}),
                 HasSubstr("ResultsDesc::into of 4096 bytes cannot begin at byte " + std::to_string(last)));
-    const Result<ResultRing> ring = ResultRing::create(context(), 3, {.maxPairs = 10, .into = {mine.buffer, 0, 751}});
+    const Detector detector = take(Detector::raster(context(), {}));
+    const Result<ResultRing> ring = ResultRing::create(detector, 3, {.maxPairs = 10, .into = {mine.buffer, 0, 751}});
     ASSERT_FALSE(ring.ok());
     EXPECT_THAT(ring.error().text, HasSubstr("ResultsDesc::into has 751 bytes, 3 frames of 10 pairs need 752"));
-    EXPECT_TRUE(ResultRing::create(context(), 3, {.maxPairs = 10, .into = {mine.buffer, 0, 752}}).ok());
-    EXPECT_FALSE(ResultRing::create(context(), 3, {.maxPairs = 10, .into = {mine.buffer, 0, VK_WHOLE_SIZE}}).ok());
+    EXPECT_TRUE(ResultRing::create(detector, 3, {.maxPairs = 10, .into = {mine.buffer, 0, 752}}).ok());
+    EXPECT_FALSE(ResultRing::create(detector, 3, {.maxPairs = 10, .into = {mine.buffer, 0, VK_WHOLE_SIZE}}).ok());
 }
 
 } // namespace

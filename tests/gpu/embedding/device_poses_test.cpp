@@ -117,8 +117,8 @@ class DevicePosesTest : public CertifiedTest {
                                                  .count = static_cast<std::uint32_t>(count)}));
     }
     /// Every projection by every method of the device.
-    std::vector<DetectorDesc> detectors() {
-        std::vector<DetectorDesc> out;
+    std::vector<AnyDesc> detectors() {
+        std::vector<AnyDesc> out;
         for (const Projection projection : projections()) {
             for (const CountingMethod method : countingMethods()) {
                 if (method != CountingMethod::Cpu && context().supports(method, projection)) {
@@ -149,9 +149,9 @@ std::size_t DevicePosesTest::comparePairs(std::size_t scenes, std::mt19937_64& r
     std::size_t finite = 0;
     std::map<Projection, Detector> detectors;
     for (const Projection projection : {Projection::Certified, Projection::TwoView}) {
-        detectors.emplace(projection, take(Detector::create(context(), {.method = CountingMethod::Compute,
-                                                                        .projection = projection,
-                                                                        .devicePoses = true})));
+        detectors.emplace(projection, take(Detector::create(context(), AnyDesc{.method = CountingMethod::Compute,
+                                                                               .projection = projection,
+                                                                               .devicePoses = true})));
     }
     for (std::size_t scene = 0; scene < scenes; ++scene) {
         const Grid grid = anyGrid(random);
@@ -172,7 +172,7 @@ std::size_t DevicePosesTest::comparePairs(std::size_t scenes, std::mt19937_64& r
             const std::array items{
                 BatchItem{&mesh, &volume, &function, poses},
                 BatchItem{.mesh = &mesh, .volume = &volume, .transferFunction = &function, .poses = &onDevice}};
-            Results results = take(Results::create(context(), {.maxPairs = 2 * kPoses}));
+            Results results = take(Results::create(detector, {.maxPairs = 2 * kPoses}));
             const std::vector<PairResult> found = run(detector, {items, view, 0.5}, results);
             const std::size_t ofPair =
                 projection == Projection::Certified ? sizeof(shader::CertifiedPair) : 2 * sizeof(shader::PairTransform);
@@ -215,7 +215,7 @@ TEST_F(DevicePosesTest, ADeviceWithoutDoublesIsRefusedByName) {
     EXPECT_TRUE(report.usable);
     EXPECT_THAT(report.missing, Contains(AllOf(HasSubstr("shaderFloat64"), HasSubstr("no poses on the device"))));
     const Context without = take(Context::create(desc));
-    const Result<Detector> detector = Detector::create(without, {.devicePoses = true});
+    const Result<Detector> detector = Detector::raster(without, {.devicePoses = true});
     ASSERT_FALSE(detector.ok());
     EXPECT_EQ(detector.error().code, ErrorCode::Unsupported);
     EXPECT_THAT(detector.error().text, HasSubstr("lacks shaderFloat64"));
@@ -243,10 +243,10 @@ TEST_F(DevicePosesTest, AnswersAreThoseOfHostPosesByEveryMethod) {
     BatchItem device = host;
     device.poses = &onDevice;
     std::uint64_t hits = 0;
-    for (const DetectorDesc& desc : detectors()) {
+    for (const AnyDesc& desc : detectors()) {
         SCOPED_TRACE(std::string(toString(desc.projection)) + " " + toString(desc.method));
         const Detector detector = take(Detector::create(context(), desc));
-        Results results = take(Results::create(context(), {.maxPairs = 200}));
+        Results results = take(Results::create(detector, {.maxPairs = 200}));
         std::array items{host, device, host, device};
         items[0].world_from_object = all.first(3);
         items[2].world_from_object = all.subspan(5, 2);
@@ -296,13 +296,13 @@ TEST_F(DevicePosesTest, AMeshInMapCoordinatesTouchesWhereItIs) {
     const std::array poses{multiply(translation({0.18, 0, 0}), pose), multiply(translation({0.22, 0, 0}), pose)};
     const std::array items{BatchItem{&made, &volume, &function, poses}, BatchItem{&bent, &volume, &function, poses}};
     const View view = flatView(0, 20, 64, 64);
-    for (const DetectorDesc& desc : detectors()) {
+    for (const AnyDesc& desc : detectors()) {
         if (desc.projection == Projection::View || desc.projection == Projection::TwoView) {
             continue; // cameras, which see it from its edge
         }
         SCOPED_TRACE(std::string(toString(desc.projection)) + " " + toString(desc.method));
         const Detector detector = take(Detector::create(context(), desc));
-        Results results = take(Results::create(context(), {.maxPairs = 4}));
+        Results results = take(Results::create(detector, {.maxPairs = 4}));
         const std::vector<PairResult> found = run(detector, {items, view, 0.1}, results);
         for (std::size_t i = 0; i < found.size(); ++i) {
             EXPECT_EQ(found[i].countLow > 0, i % 2 == 1) << i;
@@ -321,10 +321,10 @@ TEST_F(DevicePosesTest, ARecordingIsOfThePosesOfItsSubmission) {
     const RawVulkan::HostBuffer buffer = write(away);
     const PoseBuffer poses = wrap(buffer, 1);
     const BatchItem item{.mesh = &mesh, .volume = &volume, .transferFunction = &function, .poses = &poses};
-    for (const DetectorDesc& desc : detectors()) {
+    for (const AnyDesc& desc : detectors()) {
         SCOPED_TRACE(std::string(toString(desc.projection)) + " " + toString(desc.method));
         const Detector detector = take(Detector::create(context(), desc));
-        Results results = take(Results::create(context(), {}));
+        Results results = take(Results::create(detector, {}));
         const VkCommandBuffer commands = raw().begin();
         take(detector.cmdDetect(commands, {{&item, 1}, flatView(0, 1, 64, 64), 0.5}, results));
         take(results.cmdReadBack(commands));
@@ -352,10 +352,10 @@ TEST_F(DevicePosesTest, APoseThatCannotBeUsedIsSaidToBeRefused) {
     const RawVulkan::HostBuffer buffer = write(poses);
     const PoseBuffer onDevice = wrap(buffer, poses.size());
     const BatchItem item{.mesh = &mesh, .volume = &volume, .transferFunction = &function, .poses = &onDevice};
-    for (const DetectorDesc& desc : detectors()) {
+    for (const AnyDesc& desc : detectors()) {
         SCOPED_TRACE(std::string(toString(desc.projection)) + " " + toString(desc.method));
         const Detector detector = take(Detector::create(context(), desc));
-        Results results = take(Results::create(context(), {.maxPairs = 32}));
+        Results results = take(Results::create(detector, {.maxPairs = 32}));
         const std::vector<PairResult> found = run(detector, {{&item, 1}, flatView(0, 1, 64, 64), 0.5}, results);
         for (std::size_t i = 0; i < 18; ++i) {
             const PairAnswer answer = unpack(found[i]);
@@ -392,8 +392,8 @@ TEST_F(DevicePosesTest, ManyItemsWithGridsOfTheirOwn) {
     }
     for (const Projection projection : {Projection::Certified, Projection::DominantAxis}) {
         const Detector detector = take(Detector::create(
-            context(), {.method = CountingMethod::Compute, .projection = projection, .devicePoses = true}));
-        Results results = take(Results::create(context(), {.maxPairs = 1600}));
+            context(), AnyDesc{.method = CountingMethod::Compute, .projection = projection, .devicePoses = true}));
+        Results results = take(Results::create(detector, {.maxPairs = 1600}));
         const std::vector<PairResult> found = run(detector, {items, {}, 0.5}, results);
         ASSERT_EQ(found.size(), 1600U);
         for (std::size_t i = 0; i < found.size(); ++i) {
@@ -422,14 +422,14 @@ TEST_F(DevicePosesTest, WhatCannotBeUsedIsRefusedByName) {
     const TransferFunction function = upload(byteRamp(), {0, 255});
     const Mesh mesh = upload(makeFlat(0, 1, 0, 1, 0.5));
     const std::array<Mat4, 1> host{identity()};
-    DetectorDesc desc{.method = CountingMethod::Compute, .projection = Projection::Certified};
+    AnyDesc desc{.method = CountingMethod::Compute, .projection = Projection::Certified};
     BatchItem item{.mesh = &mesh, .volume = &volume, .transferFunction = &function, .poses = &poses};
     BlockingDetector asked = detector(desc);
     const auto said = [&] {
         const Result<BatchAnswer> answer = asked.detect({{&item, 1}, {}, 0.5});
         return answer.ok() ? std::string("answered") : answer.error().text;
     };
-    EXPECT_THAT(said(), HasSubstr("made without DetectorDesc::devicePoses"));
+    EXPECT_THAT(said(), HasSubstr("made without devicePoses"));
     desc.devicePoses = true;
     asked = detector(desc);
     EXPECT_EQ(said(), "answered");

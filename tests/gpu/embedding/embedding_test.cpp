@@ -59,8 +59,8 @@ TEST_F(EmbeddingTest, ACommandBufferThatAlreadyHoldsOtherWork) {
     for (const MethodSupport& support : context.methods()) {
         const CountingMethod method = support.method;
         UploadedLater scene(context);
-        const Detector detector = take(Detector::create(context, {.method = method}));
-        Results results = take(Results::create(context, {.maxPairs = 2, .readBack = false}));
+        const Detector detector = take(Detector::raster(context, {.method = method}));
+        Results results = take(Results::create(detector, {.maxPairs = 2, .readBack = false}));
         const RawVulkan::HostBuffer others =
             raw.makeBuffer(64, VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
         const RawVulkan::HostBuffer mine = raw.makeBuffer(sizeof(PairResult), VK_BUFFER_USAGE_TRANSFER_DST_BIT);
@@ -94,8 +94,8 @@ TEST_F(EmbeddingTest, OneCommandBufferSubmittedTwice) {
     scene.cmdUpload(uploads);
     raw.submitAndWait(uploads);
     scene.releaseStaging();
-    const Detector detector = take(Detector::create(context, {.method = CountingMethod::Atomic}));
-    Results results = take(Results::create(context, {.maxPairs = 1}));
+    const Detector detector = take(Detector::raster(context, {.method = CountingMethod::Atomic}));
+    Results results = take(Results::create(detector, {.maxPairs = 1}));
     const BatchItem item = scene.item();
     const VkCommandBuffer commands = raw.begin();
     take(detector.cmdDetect(commands, {std::span(&item, 1), flatView(0, 1, 64, 64), 0.5}, results));
@@ -156,7 +156,8 @@ TEST_F(EmbeddingTest, WrappedObjectsOfTheCaller) {
     const BatchItem items[] = {{&indexed, &volume, &function, std::span(&pose, 1)},
                                {&loose, &volume, &function, std::span(&pose, 1)}};
     for (const CountingMethod method : {CountingMethod::Query, CountingMethod::Atomic, CountingMethod::Compute}) {
-        BlockingDetector detector = take(BlockingDetector::create(context, {.method = method}, device.queueAccess()));
+        BlockingDetector detector =
+            take(BlockingDetector::create(context, RasterDesc{.method = method}, device.queueAccess()));
         const BatchAnswer answer = take(detector.detect({items, flatView(0, 1, 64, 64), 0.5}));
         EXPECT_EQ(answer.pairs[0].count, 64U * 32U);
         EXPECT_EQ(answer.pairs[1].count, 64U * 32U);
@@ -164,7 +165,7 @@ TEST_F(EmbeddingTest, WrappedObjectsOfTheCaller) {
         EXPECT_EQ(detector.detector().boundaryFor(items[0], 0.5), Boundary::Range);
         // Without a camera: 8 x 4 voxels. The rasteriser reads the buffers as compute does.
         BlockingDetector dominant = take(BlockingDetector::create(
-            context, {.method = method, .projection = Projection::DominantAxis}, device.queueAccess()));
+            context, RasterDesc{.method = method, .projection = Projection::DominantAxis}, device.queueAccess()));
         const BatchAnswer voxels = take(dominant.detect({items, {}, 0.5}));
         EXPECT_EQ(voxels.pairs[0].count, 8U * 4U);
         EXPECT_EQ(voxels.pairs[1].count, 8U * 4U);
@@ -173,7 +174,7 @@ TEST_F(EmbeddingTest, WrappedObjectsOfTheCaller) {
     const Volume vouched = take(Volume::wrap(context, wrappedVolume));
     wrappedTable.table = table;
     const TransferFunction known = take(TransferFunction::wrap(context, wrappedTable));
-    const Detector detector = take(Detector::create(context, {}));
+    const Detector detector = take(Detector::raster(context, {}));
     EXPECT_EQ(detector.boundaryFor({&indexed, &vouched, &known, {}}, 0.5), Boundary::Clamp);
 
     // Entries that are the threshold in single precision reach it, certainly.
@@ -184,8 +185,7 @@ TEST_F(EmbeddingTest, WrappedObjectsOfTheCaller) {
     const TransferFunction flat = take(TransferFunction::wrap(context, wrappedTable));
     const Volume own = take(Volume::upload(context, device.queueAccess(), bytes.view(), {.bricks = true}));
     const BatchItem item{&indexed, &own, &flat, std::span(&pose, 1)};
-    BlockingDetector certified = take(BlockingDetector::create(
-        context, {.method = CountingMethod::Compute, .projection = Projection::Certified}, device.queueAccess()));
+    BlockingDetector certified = take(BlockingDetector::create(context, CertifiedDesc{}, device.queueAccess()));
     EXPECT_TRUE(take(certified.detect({{&item, 1}, {}, 0.7})).pairs.at(0).hit);
 }
 
@@ -199,9 +199,9 @@ TEST_F(EmbeddingTest, FramesInFlightAreReadWithoutAStall) {
     const VkCommandBuffer uploads = raw.begin();
     scene.cmdUpload(uploads);
     raw.submitAndWait(uploads);
-    const Detector detector = take(Detector::create(context, {.method = CountingMethod::Query}));
+    const Detector detector = take(Detector::raster(context, {.method = CountingMethod::Query}));
     ResultRing ring = take(ResultRing::create(
-        context, kFrames,
+        detector, kFrames,
         {.maxPairs = 16, .timestamps = device.hasTimestamps(), .queueFamily = device.queueAccess().family}));
     // Frame n moves the square n/64 along x: n columns of the opaque half are left behind.
     const auto posesOf = [](std::uint64_t frame) {
@@ -257,7 +257,7 @@ TEST_F(EmbeddingTest, TwoContextsInOneProcess) {
         functions.push_back(take(TransferFunction::upload(*contexts[i], queues[i], {byteRamp(), kBytes})));
         meshes.push_back(take(Mesh::upload(*contexts[i], queues[i], makeFlat(0, 1, 0, 1, 0.5).view())));
         detectors.push_back(
-            take(BlockingDetector::create(*contexts[i], {.method = CountingMethod::Atomic}, queues[i])));
+            take(BlockingDetector::create(*contexts[i], RasterDesc{.method = CountingMethod::Atomic}, queues[i])));
     }
     const Mat4 pose = identity();
     for (int turn = 0; turn < 3; ++turn) {
@@ -297,7 +297,7 @@ TEST_F(EmbeddingTest, ThreadsShareAContextAndAQueue) {
             const Volume volume = take(Volume::upload(context(), shared, halfOpaque().view()));
             const TransferFunction function = take(TransferFunction::upload(context(), shared, {byteRamp(), kBytes}));
             const Mesh mesh = take(Mesh::upload(context(), shared, makeFlat(0, 1, 0, 1, 0.5).view()));
-            BlockingDetector one = take(BlockingDetector::create(context(), {}, shared));
+            BlockingDetector one = take(BlockingDetector::create(context(), RasterDesc{}, shared));
             const Mat4 pose = identity();
             const BatchItem item{&mesh, &volume, &function, std::span(&pose, 1)};
             for (int turn = 0; turn < 5; ++turn) {

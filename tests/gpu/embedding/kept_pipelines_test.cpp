@@ -44,7 +44,7 @@ class KeptPipelinesTest : public GpuTest {
     }
 
     /// How many pipelines it takes to make one.
-    unsigned madeFor(const DetectorDesc& desc) {
+    unsigned madeFor(const AnyDesc& desc) {
         const unsigned before = pipelinesMade;
         kept_.push_back(take(Detector::create(*context_, desc)));
         return pipelinesMade - before;
@@ -58,17 +58,17 @@ class KeptPipelinesTest : public GpuTest {
     std::vector<Detector> kept_;
 };
 
-DetectorDesc certified() {
+AnyDesc certified() {
     return {.method = CountingMethod::Compute, .projection = Projection::Certified, .stopAtFirst = true};
 }
 
 TEST_F(KeptPipelinesTest, DetectorsOfAKindShareThem) {
-    const DetectorDesc view{.method = CountingMethod::Compute, .filter = Filter::Exact};
+    const AnyDesc view{.method = CountingMethod::Compute, .filter = Filter::Exact};
     EXPECT_EQ(madeFor(view), 1U);
     EXPECT_EQ(madeFor(view), 0U);
     endAll();
     EXPECT_EQ(madeFor(view), 0U) << "they outlive the detectors";
-    DetectorDesc other = view;
+    AnyDesc other = view;
     other.projection = Projection::TwoView;
     EXPECT_EQ(madeFor(other), 1U);
     other.outputs.triangles = true;
@@ -76,7 +76,7 @@ TEST_F(KeptPipelinesTest, DetectorsOfAKindShareThem) {
 }
 
 TEST_F(KeptPipelinesTest, NumbersAreNoKinds) {
-    DetectorDesc desc = certified();
+    AnyDesc desc = certified();
     EXPECT_EQ(madeFor(desc), 6U);
     desc.resolution = kDefaultResolution / 2;
     EXPECT_EQ(madeFor(desc), 0U);
@@ -90,7 +90,7 @@ TEST_F(KeptPipelinesTest, ThreadsWaitForEachOther) {
     for (int i = 0; i < 4; ++i) {
         threads.emplace_back([&] {
             const Result<Detector> one =
-                Detector::create(counted(), {.method = CountingMethod::Compute, .filter = Filter::Exact});
+                Detector::raster(counted(), {.method = CountingMethod::Compute, .filter = Filter::Exact});
             made += one.ok() ? 1 : 0;
         });
     }

@@ -180,10 +180,10 @@ TEST_F(LesserDeviceTest, AQueueThatOnlyComputesCountsByCompute) {
                 continue;
             }
             const Outputs outputs{.triangles = all, .contacts = all, .bounds = all, .labels = all};
-            const DetectorDesc wanted{.method = CountingMethod::Compute,
-                                      .projection = row.projection,
-                                      .filter = Filter::Exact,
-                                      .outputs = outputs};
+            const AnyDesc wanted{.method = CountingMethod::Compute,
+                                 .projection = row.projection,
+                                 .filter = Filter::Exact,
+                                 .outputs = outputs};
             BlockingDetector here = take(BlockingDetector::create(less, wanted, queue()));
             const BatchItem item = objects.item();
             const BatchItem usualItem = usual.item();
@@ -205,7 +205,7 @@ TEST_F(LesserDeviceTest, AQueueThatOnlyComputesCannotDraw) {
     lesser.onlyComputes = true;
     const Context less = take(Context::create(desc()));
     const Result<BlockingDetector> drawn =
-        BlockingDetector::create(less, {.method = CountingMethod::QueryAny}, queue());
+        BlockingDetector::create(less, RasterDesc{.method = CountingMethod::QueryAny}, queue());
     ASSERT_FALSE(drawn.ok());
     EXPECT_EQ(drawn.error().code, ErrorCode::InvalidArgument);
     EXPECT_THAT(drawn.error().text, HasSubstr("cannot draw"));
@@ -226,13 +226,13 @@ TEST_F(LesserDeviceTest, FloatsThatCannotBeFilteredAreReadExactly) {
         if (!support.available || support.method == CountingMethod::Cpu) {
             continue;
         }
-        const DetectorDesc exact{.method = support.method, .filter = Filter::Exact};
+        const AnyDesc exact{.method = support.method, .filter = Filter::Exact};
         BlockingDetector here = take(BlockingDetector::create(less, exact, queue()));
         EXPECT_EQ(take(here.detect({{&item, 1}, view(), 0.5})).pairs[0].count,
                   take(detector(exact).detect({{&usualItem, 1}, view(), 0.5})).pairs[0].count)
             << toString(support.method);
-        BlockingDetector filtered =
-            take(BlockingDetector::create(less, {.method = support.method, .filter = Filter::Hardware}, queue()));
+        BlockingDetector filtered = take(
+            BlockingDetector::create(less, RasterDesc{.method = support.method, .filter = Filter::Hardware}, queue()));
         const Result<BatchAnswer> refused = filtered.detect({{&item, 1}, view(), 0.5});
         ASSERT_FALSE(refused.ok()) << toString(support.method);
         EXPECT_EQ(refused.error().code, ErrorCode::Unsupported);
@@ -246,8 +246,8 @@ TEST_F(LesserDeviceTest, ATableThatCannotBeFilteredIsSaidToBe) {
     const Context less = take(Context::create(desc()));
     const Objects objects = make(less, ScalarType::UInt8);
     const BatchItem item = objects.item();
-    BlockingDetector filtered =
-        take(BlockingDetector::create(less, {.method = CountingMethod::QueryAny, .filter = Filter::Hardware}, queue()));
+    BlockingDetector filtered = take(BlockingDetector::create(
+        less, RasterDesc{.method = CountingMethod::QueryAny, .filter = Filter::Hardware}, queue()));
     const Result<BatchAnswer> refused = filtered.detect({{&item, 1}, view(), 0.5});
     ASSERT_FALSE(refused.ok());
     EXPECT_THAT(refused.error().text, HasSubstr("cannot filter the transfer function's table linearly"));
@@ -267,7 +267,8 @@ TEST_F(LesserDeviceTest, FamiliesShareWhatIsMadeForThem) {
     const Context shared = take(Context::create(wanted));
     const Objects objects = make(shared, ScalarType::UInt8);
     const BatchItem item = objects.item();
-    BlockingDetector here = take(BlockingDetector::create(shared, {.method = CountingMethod::QueryAny}, queue()));
+    BlockingDetector here =
+        take(BlockingDetector::create(shared, RasterDesc{.method = CountingMethod::QueryAny}, queue()));
     EXPECT_TRUE(take(here.detect({{&item, 1}, view(), 0.5})).pairs[0].hit);
     EXPECT_THAT(lesser.sharing, testing::ElementsAre(VK_SHARING_MODE_CONCURRENT));
     EXPECT_THAT(lesser.sharedBy, testing::ElementsAre(0U, 2U));

@@ -18,10 +18,11 @@ TEST_F(LifetimeTest, AContextMayEndBeforeWhatWasMadeWithIt) {
         *context, queue(), makeBytes(unitGrid(4), [](auto...) { return 255.0; }).view(), {.bricks = true}));
     const TransferFunction function = take(TransferFunction::upload(*context, queue(), {byteRamp(), {0, 255}}));
     const Mesh mesh = take(Mesh::upload(*context, queue(), makeFlat(0, 1, 0, 1, 0.5).view(), {.clusters = true}));
-    BlockingDetector blocking = take(BlockingDetector::create(*context, {.outputs = {.contacts = true}}, queue()));
-    const Detector detector = take(Detector::create(*context, {}));
-    Results results = take(Results::create(*context, {}));
-    const ResultRing ring = take(ResultRing::create(*context, 2, {}));
+    BlockingDetector blocking =
+        take(BlockingDetector::create(*context, RasterDesc{.outputs = {.contacts = true}}, queue()));
+    const Detector detector = take(Detector::raster(*context, {}));
+    Results results = take(Results::create(detector, {}));
+    const ResultRing ring = take(ResultRing::create(detector, 2, {}));
     context.reset();
     const Mat4 pose = identity();
     const BatchItem item{&mesh, &volume, &function, std::span(&pose, 1)};
@@ -57,8 +58,9 @@ TEST_F(LifetimeTest, GpuTimesOfALostDevice) {
     ContextDesc desc = gpu().device.contextDesc();
     desc.getInstanceProcAddr = Interception::getInstanceProcAddr();
     const Context context = take(Context::create(desc));
+    const Detector detector = take(Detector::raster(context, {}));
     Results results =
-        take(Results::create(context, {.timestamps = gpu().device.hasTimestamps(), .queueFamily = queue().family}));
+        take(Results::create(detector, {.timestamps = gpu().device.hasTimestamps(), .queueFamily = queue().family}));
     EXPECT_EQ(results.gpuMilliseconds().error().code, ErrorCode::NotReady) << "nothing was recorded";
     callFault = {.functions = {"vkQueueSubmit2"}, .result = VK_ERROR_DEVICE_LOST};
     EXPECT_FALSE(Mesh::upload(context, queue(), makeFlat(0, 1, 0, 1, 0.5).view()).ok());

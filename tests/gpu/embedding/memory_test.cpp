@@ -160,7 +160,7 @@ class MemoryTest : public RawGpuTest {
         const Volume volume =
             take(Volume::upload(context, queue(), makeBytes(unitGrid(4), [](auto...) { return 255.0; }).view()));
         const TransferFunction function = take(TransferFunction::upload(context, queue(), {byteRamp(), {0, 255}}));
-        BlockingDetector detector = take(BlockingDetector::create(context, {}, queue()));
+        BlockingDetector detector = take(BlockingDetector::create(context, RasterDesc{}, queue()));
         std::vector<BatchItem> items;
         for (const Mesh& mesh : meshes) {
             items.push_back({&mesh, &volume, &function, std::span(&pose_, 1)});
@@ -280,8 +280,10 @@ TEST_F(MemoryTest, TheCallersAllocatorServesEverything) {
         const Mesh mesh = take(Mesh::upload(*context, queue(), makeFlat(0, 1, 0, 1, 0.5).view(), {.clusters = true}));
         const LabelMap labels = take(LabelMap::upload(*context, queue(), take(makeLabels(voxels.view()))));
         BlockingDetector blocking = take(BlockingDetector::create(
-            *context, {.outputs = {.triangles = true, .contacts = true, .bounds = true, .labels = true}}, queue()));
-        const ResultRing ring = take(ResultRing::create(*context, 2, {.staged = true}));
+            *context, RasterDesc{.outputs = {.triangles = true, .contacts = true, .bounds = true, .labels = true}},
+            queue()));
+        const ResultRing ring =
+            take(ResultRing::create(blocking.detector(), 2, {.room = {.triangles = 2, .labels = 9}, .staged = true}));
         BlockingRenderer renderer = take(BlockingRenderer::create(*context, queue()));
         const RenderTransferFunction colours = take(RenderTransferFunction::upload(
             renderer.renderer(), queue(), {.opacity = {byteRamp(), {0, 255}, 16}, .step = 0.1}));

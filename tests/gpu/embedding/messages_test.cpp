@@ -43,7 +43,7 @@ TEST_F(MessagesTest, MakingPipelinesSaysNothing) {
             const CountingMethod method =
                 projection == Projection::Certified ? CountingMethod::Compute : context.defaultMethod();
             if (context.supports(method, projection)) {
-                take(Detector::create(context, {.method = method, .projection = projection}));
+                take(Detector::create(context, AnyDesc{.method = method, .projection = projection}));
             }
         }
         take(Renderer::create(context));

@@ -42,9 +42,9 @@ class MisuseTest : public RawGpuTest {
         return {std::span(&item, 1), flatView(0, 1, 16, 16), 0.5};
     }
     /// The error of recording one item.
-    [[nodiscard]] Error refused(const DetectorDesc& desc, const BatchItem& bad) {
+    [[nodiscard]] Error refused(const AnyDesc& desc, const BatchItem& bad) {
         const Detector one = take(Detector::create(context(), desc));
-        Results results = take(Results::create(context(), {.room = OutputRoom{.triangles = 64}}));
+        Results results = take(Results::create(one, {.room = {.triangles = 64}}));
         const Result<void> recorded = one.cmdDetect(raw().begin(), batchOf(bad), results);
         EXPECT_FALSE(recorded.ok());
         return recorded.ok() ? Error{} : recorded.error();
@@ -57,9 +57,9 @@ class MisuseTest : public RawGpuTest {
 };
 
 TEST_F(MisuseTest, NumbersOfNothing) {
-    EXPECT_EQ(Detector::create(context(), {.filter = static_cast<Filter>(99)}).error().text,
+    EXPECT_EQ(Detector::raster(context(), {.filter = static_cast<Filter>(99)}).error().text,
               "there is no filter number 99");
-    EXPECT_EQ(Detector::create(context(), {.boundary = static_cast<Boundary>(99)}).error().text,
+    EXPECT_EQ(Detector::raster(context(), {.boundary = static_cast<Boundary>(99)}).error().text,
               "there is no boundary number 99");
     EXPECT_EQ(cpu::Detector::create({.boundary = static_cast<Boundary>(99)}).error().text,
               "there is no boundary number 99");
@@ -106,19 +106,20 @@ TEST_F(MisuseTest, AQueueFamilyThatIsNotThere) {
     QueueAccess queue = this->queue();
     queue.family = 42;
     const std::string text = "QueueAccess::family is 42, the device has ";
-    EXPECT_THAT(BlockingDetector::create(context(), {}, queue).error().text, HasSubstr(text));
+    EXPECT_THAT(BlockingDetector::create(context(), RasterDesc{}, queue).error().text, HasSubstr(text));
     EXPECT_THAT(BlockingRenderer::create(context(), queue).error().text, HasSubstr(text));
     EXPECT_THAT(Volume::upload(context(), queue, bytes().view()).error().text, HasSubstr(text));
     EXPECT_THAT(selfTest(context(), queue).error().text, HasSubstr(text));
-    EXPECT_THAT(Results::create(context(), {.timestamps = true, .queueFamily = 42}).error().text,
+    const Detector detector = take(Detector::raster(context(), {}));
+    EXPECT_THAT(Results::create(detector, {.timestamps = true, .queueFamily = 42}).error().text,
                 HasSubstr("ResultsDesc::queueFamily is 42"));
 }
 
 TEST_F(MisuseTest, ARingOfTooManyFrames) {
-    EXPECT_THAT(ResultRing::create(context(), 1'000'000'000, {}).error().text,
-                HasSubstr("a ring of 1000000000 frames"));
-    EXPECT_FALSE(ResultRing::create(context(), 4097, {}).ok());
-    ResultRing ring = take(ResultRing::create(context(), 2, {}));
+    const Detector detector = take(Detector::raster(context(), {}));
+    EXPECT_THAT(ResultRing::create(detector, 1'000'000'000, {}).error().text, HasSubstr("a ring of 1000000000 frames"));
+    EXPECT_FALSE(ResultRing::create(detector, 4097, {}).ok());
+    ResultRing ring = take(ResultRing::create(detector, 2, {}));
     const ResultRing taken = std::move(ring);
     EXPECT_THAT(ring.begin(0).error().text, HasSubstr("moved from")); // NOLINT(bugprone-use-after-move)
     EXPECT_THAT(ring.read(0).error().text, HasSubstr("moved from"));
@@ -161,7 +162,7 @@ TEST_F(MisuseTest, BricksThatWereNeverFilled) {
     wrap.grid = unitGrid(4);
     wrap.bricks = true;
     Volume volume = take(Volume::wrap(context(), wrap));
-    const DetectorDesc desc{.method = CountingMethod::Compute, .projection = Projection::Certified};
+    const AnyDesc desc{.method = CountingMethod::Compute, .projection = Projection::Certified};
     BatchItem bad = item();
     bad.volume = &volume;
     EXPECT_THAT(refused(desc, bad).text, HasSubstr("bricks of the wrapped volume were never filled"));
@@ -170,7 +171,7 @@ TEST_F(MisuseTest, BricksThatWereNeverFilled) {
     EXPECT_THAT(refused(desc, bad).text, HasSubstr("were never filled")) << "of a part";
     take(volume.cmdUpdateBricks(commands, {{}, {4, 4, 4}}));
     const Detector one = take(Detector::create(context(), desc));
-    Results results = take(Results::create(context(), {}));
+    Results results = take(Results::create(one, {}));
     take(one.cmdDetect(commands, batchOf(bad), results));
     take(results.cmdReadBack(commands));
     raw().submitAndWait(commands);
@@ -217,17 +218,16 @@ TEST_F(MisuseTest, ANullCommandBuffer) {
     EXPECT_EQ(volume.cmdSet(VK_NULL_HANDLE, box, 0).error().text, text);
     EXPECT_EQ(volume.cmdWrite(VK_NULL_HANDLE, box, {&voxel, 1}).error().text, text);
     EXPECT_EQ(volume.cmdUpdateBricks(VK_NULL_HANDLE, box).error().text, text);
-    Results results = take(Results::create(context(), {}));
-    const Detector one = take(Detector::create(context(), {}));
+    const Detector one = take(Detector::raster(context(), {}));
+    Results results = take(Results::create(one, {}));
     EXPECT_EQ(one.cmdDetect(VK_NULL_HANDLE, batchOf(item()), results).error().text, text);
     EXPECT_EQ(results.cmdReadBack(VK_NULL_HANDLE).error().text, text);
 }
 
 TEST_F(MisuseTest, ReadingAFrameEarlyIsNotReady) {
-    DetectorDesc desc{.outputs = {.triangles = true, .contacts = true, .bounds = true}};
-    const Detector one = take(Detector::create(context(), desc));
-    Results results =
-        take(Results::create(context(), {.maxPairs = 2, .room = OutputRoom{.triangles = 64, .contacts = 1024}}));
+    const Detector one =
+        take(Detector::raster(context(), {.outputs = {.triangles = true, .contacts = true, .bounds = true}}));
+    Results results = take(Results::create(one, {.maxPairs = 2, .room = {.triangles = 64, .contacts = 1024}}));
     EXPECT_EQ(results.cmdReadBack(raw().begin()).error().code, ErrorCode::NotReady);
     BatchAnswer answer;
     const auto record = [&](std::span<const Mat4> poses) {

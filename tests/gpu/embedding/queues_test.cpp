@@ -20,11 +20,11 @@ using testing::HasSubstr;
 class QueuesTest : public RawGpuTest {
   protected:
     /// What a batch gives where so many clusters are examined at once.
-    BatchAnswer detect(const DetectorDesc& desc, const Batch& batch, std::uint32_t pairs, std::uint32_t clusters) {
+    BatchAnswer detect(const AnyDesc& desc, const Batch& batch, std::uint32_t pairs, std::uint32_t clusters) {
         const Detector detector = take(Detector::create(context(), desc));
-        Results results = take(Results::create(context(), {.maxPairs = pairs,
-                                                           .room = OutputRoom{.triangles = std::size_t{pairs} * 4096},
-                                                           .clustersAtOnce = clusters}));
+        Results results = take(Results::create(
+            detector,
+            {.maxPairs = pairs, .room = {.triangles = std::size_t{pairs} * 4096}, .clustersAtOnce = clusters}));
         const VkCommandBuffer commands = raw().begin();
         take(detector.cmdDetect(commands, batch, results));
         take(results.cmdReadBack(commands));
@@ -97,10 +97,10 @@ TEST_F(QueuesTest, NoAnswerDependsOnTheirRoom) {
                 take(take(cpu::Detector::create(
                               {.stopAtFirst = stopAtFirst, .projection = Projection::Certified, .outputs = outputs}))
                          .detect({{&hostItem, 1}, {}, kDefaultThreshold}));
-            const DetectorDesc desc{.method = CountingMethod::Compute,
-                                    .projection = Projection::Certified,
-                                    .outputs = outputs,
-                                    .stopAtFirst = stopAtFirst};
+            const AnyDesc desc{.method = CountingMethod::Compute,
+                               .projection = Projection::Certified,
+                               .outputs = outputs,
+                               .stopAtFirst = stopAtFirst};
             for (const std::uint32_t clusters : {16U, 16384U, kMostQueueRoom}) {
                 const auto pairs = static_cast<std::uint32_t>(poses.size());
                 expectSame(detect(desc, {{&item, 1}, {}, kDefaultThreshold}, pairs, clusters), onHost,
@@ -131,7 +131,7 @@ TEST_F(QueuesTest, HugeTrianglesThatAreLeftAreCountedWhole) {
     const MeshData data = hugeTriangles(4, 0.9 * 128, random);
     const Mesh mesh = take(Mesh::upload(context(), queue(), data.view(), {.clusters = true}));
     const cpu::Mesh hostMesh = take(cpu::Mesh::create(data.view()));
-    const DetectorDesc desc{
+    const AnyDesc desc{
         .method = CountingMethod::Compute, .projection = Projection::Certified, .outputs = {.triangles = true}};
     for (const Noise& scene :
          {Noise{ball, ramp, 0.05, 16}, Noise{ball, ramp, 0.05, 2048}, Noise{noise, peak, 0.5, 16}}) {
@@ -178,7 +178,7 @@ TEST_F(QueuesTest, WhatIsCountedWithoutADecisionIsCountedOnce) {
         const BatchAnswer onHost = take(take(cpu::Detector::create({.projection = Projection::Certified}))
                                             .detect({{&hostItem, 1}, {}, kDefaultThreshold}));
         EXPECT_GT(onHost.pairs[0].count, 1000U);
-        const DetectorDesc desc{.method = CountingMethod::Compute, .projection = Projection::Certified};
+        const AnyDesc desc{.method = CountingMethod::Compute, .projection = Projection::Certified};
         // At 96 and 128 there is room for parts of large triangles, and not for all of their cells.
         for (const std::uint32_t clusters : {16U, 96U, 128U, 16384U}) {
             expectSame(detect(desc, {{&item, 1}, {}, kDefaultThreshold}, 3, clusters), onHost,
@@ -220,7 +220,7 @@ TEST_F(QueuesTest, WhatIsLeftOfAFullQueueIsNoCell) {
     const std::array poses{identity(), identity()};
     const BatchItem item{&mesh, &volume, &function, poses};
     const cpu::BatchItem hostItem{&hostMesh, &hostVolume, &hostFunction, poses};
-    const DetectorDesc desc{
+    const AnyDesc desc{
         .method = CountingMethod::Compute, .projection = Projection::Certified, .outputs = {.triangles = true}};
     const BatchAnswer onHost =
         take(take(cpu::Detector::create({.projection = Projection::Certified, .outputs = {.triangles = true}}))
@@ -258,8 +258,9 @@ TEST_F(QueuesTest, RoundsBeyondTheHeadersBeginEmpty) {
 }
 
 TEST_F(QueuesTest, RoomsThatCannotBe) {
+    const Detector detector = take(Detector::certified(context()));
     for (const std::uint32_t clusters : {1U, 15U, 262145U}) {
-        const Result<Results> refused = Results::create(context(), {.clustersAtOnce = clusters});
+        const Result<Results> refused = Results::create(detector, {.clustersAtOnce = clusters});
         ASSERT_FALSE(refused.ok());
         EXPECT_THAT(refused.error().text, HasSubstr("ResultsDesc::clustersAtOnce is " + std::to_string(clusters)));
     }
@@ -271,28 +272,27 @@ TEST(RoomTest, IsWhatWasAskedForOrWhatTheDeviceAllows) {
     const RoomLimits large{kMuch, kMuch, kMostQueueRoom};
     const RoomLimits little{kMuch, VkDeviceSize{64} << 20U, kMostQueueRoom};
     const RoomLimits tight{VkDeviceSize{1} << 20U, kMuch, kMostQueueRoom};
-    const auto room = [](std::optional<std::uint32_t> clusters, std::uint32_t pairs, const RoomLimits& limits) {
+    const auto room = [](std::uint32_t clusters, std::uint32_t pairs, const RoomLimits& limits) {
         return queueRoomFor({.maxPairs = pairs, .clustersAtOnce = clusters}, limits, 0);
     };
     // By the pairs, up to what the device allows.
-    EXPECT_EQ(room({}, 1, large), kUsualQueueRoom);
-    EXPECT_EQ(room({}, 100, large), 128U * 64);
-    EXPECT_EQ(room({}, 1000, any), kMostRoomAnywhere);
-    EXPECT_EQ(room({}, 1000, large), 65536U);
-    EXPECT_EQ(room({}, 1U << 30U, large), kMostQueueRoom);
+    EXPECT_EQ(room(0, 1, large), kUsualQueueRoom);
+    EXPECT_EQ(room(0, 100, large), 128U * 64);
+    EXPECT_EQ(room(0, 1000, any), kMostRoomAnywhere);
+    EXPECT_EQ(room(0, 1000, large), 65536U);
+    EXPECT_EQ(room(0, 1U << 30U, large), kMostQueueRoom);
     // No more of its memory than usual, unless that is asked for.
-    EXPECT_EQ(room({}, 1U << 30U, little), 65536U);
+    EXPECT_EQ(room(0, 1U << 30U, little), 65536U);
     EXPECT_LE(queueBytes(65536), little.usualBytes);
     EXPECT_EQ(room(kMostQueueRoom, 1, little), kMostQueueRoom);
-    EXPECT_EQ(room({}, 1U << 30U, {kMuch, 0, kMostQueueRoom}), kMostRoomAnywhere);
+    EXPECT_EQ(room(0, 1U << 30U, {kMuch, 0, kMostQueueRoom}), kMostRoomAnywhere);
     // What is asked for, in steps of 16.
     EXPECT_EQ(room(kMostQueueRoom, 1, any), kMostRoomAnywhere);
     EXPECT_EQ(room(1000, 1, any), 992U);
-    EXPECT_EQ(room(0, 1, any), 0U);
     // The buffer is the last word.
-    EXPECT_LE(queueBytes(room({}, 1U << 30U, tight)), tight.bytes);
-    EXPECT_GT(queueBytes(2 * room({}, 1U << 30U, tight)), tight.bytes);
-    EXPECT_EQ(room({}, 1, {1000, kMuch, kMostQueueRoom}), 0U);
+    EXPECT_LE(queueBytes(room(0, 1U << 30U, tight)), tight.bytes);
+    EXPECT_GT(queueBytes(2 * room(0, 1U << 30U, tight)), tight.bytes);
+    EXPECT_EQ(room(0, 1, {1000, kMuch, kMostQueueRoom}), 0U);
 }
 
 /// Only their number bounds what the clusters of a mesh ask for whose vertices the host does not know.
@@ -329,23 +329,30 @@ TEST(RoomTest, FollowsTheWorkGroupsAndTheMemoryOfADevice) {
     }
 }
 
-TEST_F(QueuesTest, ResultsWithoutThemAreForOtherProjections) {
+TEST_F(QueuesTest, ResultsAreForDetectorsOfTheirKind) {
     const Volume volume = take(Volume::upload(
         context(), queue(), makeBytes(unitGrid(4), [](auto...) { return 255.0; }).view(), {.bricks = true}));
     const TransferFunction function = upload(byteRamp(), {0, 255});
     const Mesh mesh = upload(makeFlat(0, 1, 0, 1, 0.5));
     const Mat4 pose = identity();
     const BatchItem item{&mesh, &volume, &function, {&pose, 1}};
-    Results results = take(Results::create(context(), {.clustersAtOnce = 0}));
-    const VkCommandBuffer commands = raw().begin();
     const Batch batch{{&item, 1}, flatView(0, 1, 64, 64), 0.5};
-    const Detector view = take(Detector::create(context(), {.method = CountingMethod::Compute}));
-    const Detector certified =
-        take(Detector::create(context(), {.method = CountingMethod::Compute, .projection = Projection::Certified}));
-    take(view.cmdDetect(commands, batch, results));
-    const Result<void> refused = certified.cmdDetect(commands, batch, results);
-    ASSERT_FALSE(refused.ok());
-    EXPECT_THAT(refused.error().text, HasSubstr("ResultsDesc::clustersAtOnce is 0"));
+    const Detector view = take(Detector::raster(context(), {.method = CountingMethod::Compute}));
+    const Detector dominant =
+        take(Detector::raster(context(), {.method = CountingMethod::Compute, .projection = Projection::DominantAxis}));
+    const Detector certified = take(Detector::certified(context()));
+    const Detector yesNo = take(Detector::certified(context(), {.stopAtFirst = true}));
+    Results ofView = take(Results::create(view, {}));
+    Results ofCertified = take(Results::create(certified, {}));
+    EXPECT_EQ(ofView.impl().queueRoom, 0U);
+    EXPECT_EQ(ofCertified.impl().queueRoom, kUsualQueueRoom);
+    const VkCommandBuffer commands = raw().begin();
+    take(dominant.cmdDetect(commands, batch, ofView));
+    take(yesNo.cmdDetect(commands, batch, ofCertified));
+    EXPECT_EQ(certified.cmdDetect(commands, batch, ofView).error().text,
+              "the detector is certified, and the Results are not of a certified one");
+    EXPECT_EQ(view.cmdDetect(commands, batch, ofCertified).error().text,
+              "the Results are of a certified detector, and this one is not certified");
     raw().submitAndWait(commands);
 }
 

@@ -17,7 +17,7 @@ TEST_F(RecordingTest, OneResultsTakesOneBatchAfterTheOther) {
     const TransferFunction function = upload(byteRamp(), {0, 255});
     const Mesh mesh = upload(makeFlat(0, 1, 0, 1, 0.5));
     const std::array poses{translation({0, 0, 3}), identity()}; // that misses and that touches
-    std::vector<DetectorDesc> descs;
+    std::vector<AnyDesc> descs;
     for (const CountingMethod method : {CountingMethod::Query, CountingMethod::Atomic, CountingMethod::Compute}) {
         if (context().supports(method)) {
             descs.push_back({.method = method});
@@ -27,11 +27,11 @@ TEST_F(RecordingTest, OneResultsTakesOneBatchAfterTheOther) {
     if (context().supports(CountingMethod::Compute, Projection::Certified)) {
         descs.push_back({.method = CountingMethod::Compute, .projection = Projection::Certified});
     }
-    for (const DetectorDesc& desc : descs) {
+    for (const AnyDesc& desc : descs) {
         SCOPED_TRACE(std::string(toString(desc.method)) + " " + toString(desc.projection));
         const Detector detector = take(Detector::create(context(), desc));
         for (const bool readBetween : {true, false}) {
-            Results results = take(Results::create(context(), {.room = OutputRoom{.triangles = 64}}));
+            Results results = take(Results::create(detector, {.room = {.triangles = 64}}));
             const VkCommandBuffer commands = raw().begin();
             for (const std::size_t touching : {1, 0, 1}) {
                 const BatchItem item{&mesh, &volume, &function, std::span(poses).subspan(touching, 1)};
@@ -60,8 +60,8 @@ TEST_F(RecordingTest, OneResultsTakesOneBatchAfterTheOther) {
 }
 
 TEST_F(RecordingTest, AFrameHasNothingOfTheOneBeforeIt) {
-    const Detector detector = take(Detector::create(context(), {.method = CountingMethod::QueryAny}));
-    ResultRing ring = take(ResultRing::create(context(), 1, {.maxPairs = 1}));
+    const Detector detector = take(Detector::raster(context(), {.method = CountingMethod::QueryAny}));
+    ResultRing ring = take(ResultRing::create(detector, 1, {.maxPairs = 1}));
     const Volume volume = upload(makeBytes(unitGrid(4), [](auto...) { return 255.0; }));
     const TransferFunction function = upload(byteRamp(), {0, 255});
     const Mesh mesh = upload(makeFlat(0, 1, 0, 1, 0.5));

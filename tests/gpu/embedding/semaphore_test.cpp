@@ -81,7 +81,8 @@ TEST_F(SemaphoreTest, ABlockingCallWaitsBehindWhatTheQueueWaitsFor) {
     const TransferFunction function =
         take(TransferFunction::upload(context, queue, {byteRamp(), {0, 255}, kDefaultTableSize}));
     const Mesh mesh = take(Mesh::upload(context, queue, makeFlat(0, 1, 0, 1, 0.5).view()));
-    BlockingDetector detector = take(BlockingDetector::create(context, {.method = CountingMethod::Atomic}, queue));
+    BlockingDetector detector =
+        take(BlockingDetector::create(context, RasterDesc{.method = CountingMethod::Atomic}, queue));
     const Timeline engine(own);
     const Mat4 pose = identity();
     const BatchItem item{&mesh, &volume, &function, std::span(&pose, 1)};

@@ -2,6 +2,7 @@
 // ResultsDesc::staged: what a batch is recorded with goes through mapped memory, and no answer depends on it.
 #include "core/geometry/projection.h"
 #include "core/method/method_table.h"
+#include "device/detector/detector_impl.h"
 #include "device/detector/many_poses.h"
 #include "device/engine/pair_pipeline.h"
 #include "device/results/results_impl.h"
@@ -56,9 +57,10 @@ TEST_F(StagedTest, AnswersAreTheSameByEveryMethodAndProjection) {
                 continue;
             }
             SCOPED_TRACE(std::string(toString(projection)) + " " + toString(method));
-            const Detector detector = take(Detector::create(context(), {.method = method, .projection = projection}));
-            Results embedded = take(Results::create(context(), {.maxPairs = kMostPairs}));
-            Results staged = take(Results::create(context(), {.maxPairs = kMostPairs, .staged = true}));
+            const Detector detector =
+                take(Detector::create(context(), AnyDesc{.method = method, .projection = projection}));
+            Results embedded = take(Results::create(detector, {.maxPairs = kMostPairs}));
+            Results staged = take(Results::create(detector, {.maxPairs = kMostPairs, .staged = true}));
             EXPECT_EQ(embedded.impl().staging.size, 0U);
             EXPECT_GT(staged.impl().staging.size, 0U);
             // Few are in the command buffer nevertheless; one batch after the other uses the same memory.
@@ -99,13 +101,11 @@ TEST_F(StagedTest, ManyPosesBecomeTheSamePairsOnTheDevice) {
     std::vector<Detector> hosts;
     std::vector<Detector> devices;
     for (const Projection projection : {Projection::Certified, Projection::TwoView, Projection::DominantAxis}) {
-        DetectorDesc desc{.method = CountingMethod::Compute, .projection = projection};
+        AnyDesc desc{.method = CountingMethod::Compute, .projection = projection};
         hosts.push_back(take(Detector::create(context(), desc)));
         desc.devicePoses = true;
         devices.push_back(take(Detector::create(context(), desc)));
     }
-    Results embedded = take(Results::create(context(), {.maxPairs = kMany}));
-    Results staged = take(Results::create(context(), {.maxPairs = kMany, .staged = true}));
     std::size_t finite = 0;
     for (std::size_t scene = 0; scene < randomCases(300, 12); ++scene) {
         SCOPED_TRACE(scene);
@@ -132,8 +132,10 @@ TEST_F(StagedTest, ManyPosesBecomeTheSamePairsOnTheDevice) {
         ASSERT_GT(items.size(), VOXTACT_SETUP_ITEMS);
         const Batch batch{items, {framingCamera(grid, 16, 16), 16, 16}, kDefaultThreshold};
         for (std::size_t i = 0; i < devices.size(); ++i) {
-            const ProjectionRow& row = rowOf(devices[i].desc().projection);
+            const ProjectionRow& row = rowOf(devices[i].impl().desc.projection);
             SCOPED_TRACE(row.name);
+            Results embedded = take(Results::create(hosts[i], {.maxPairs = kMany}));
+            Results staged = take(Results::create(devices[i], {.maxPairs = kMany, .staged = true}));
             const std::vector<std::byte> wanted = run(hosts[i], batch, embedded);
             EXPECT_EQ(run(devices[i], batch, staged), wanted);
             if (context().impl().floatControls.doubles()) {
@@ -166,13 +168,13 @@ TEST_F(StagedTest, OtherPosesAreTheHostsAllTheSame) {
     const Volume volume = take(Volume::upload(context(), queue(), head.view(), {.bricks = true}));
     const TransferFunction function = upload(byteRamp(), {0, 255});
     const Mesh mesh = upload(take(makeScalpel()));
-    const DetectorDesc desc{.method = CountingMethod::Compute, .projection = Projection::Certified};
-    DetectorDesc many = desc;
+    const AnyDesc desc{.method = CountingMethod::Compute, .projection = Projection::Certified};
+    AnyDesc many = desc;
     many.devicePoses = true;
     const Detector host = take(Detector::create(context(), desc));
     const Detector device = take(Detector::create(context(), many));
-    Results embedded = take(Results::create(context(), {.maxPairs = kFewestHostPoses}));
-    Results staged = take(Results::create(context(), {.maxPairs = kFewestHostPoses, .staged = true}));
+    Results embedded = take(Results::create(device, {.maxPairs = kFewestHostPoses}));
+    Results staged = take(Results::create(device, {.maxPairs = kFewestHostPoses, .staged = true}));
     std::vector<Mat4> poses = randomPoses(head.grid, kFewestHostPoses, 1, random);
     const auto expectTheHosts = [&](std::size_t count) {
         const BatchItem item{&mesh, &volume, &function, std::span(poses).first(count)};
@@ -200,17 +202,18 @@ TEST_F(StagedTest, ConveniencesMakePairsOnAGpu) {
     const BatchItem item{&mesh, &volume, &function, poses};
     const Batch batch{{&item, 1}};
     for (const bool yesNo : {false, true}) {
-        const DetectorDesc desc{
+        const AnyDesc desc{
             .method = CountingMethod::Compute, .projection = Projection::Certified, .stopAtFirst = yesNo};
-        EXPECT_EQ(forManyPoses(context().impl(), desc, poses.size()).has_value(), !context().impl().onHost);
+        const Detector detector = take(Detector::create(context(), desc));
+        EXPECT_EQ(forManyPoses(detector.impl(), poses.size()).has_value(), !context().impl().onHost);
         const std::vector<PairAnswer> wanted =
             take(take(BlockingDetector::create(context(), desc, queue())).detect(batch)).pairs;
         const bool onHost = std::exchange(context().impl().onHost, false);
-        EXPECT_TRUE(forManyPoses(context().impl(), desc, poses.size()).value().devicePoses);
-        EXPECT_FALSE(forManyPoses(context().impl(), desc, kFewestHostPoses - 1));
+        EXPECT_TRUE(passDesc(forManyPoses(detector.impl(), poses.size()).value()).devicePoses);
+        EXPECT_FALSE(forManyPoses(detector.impl(), kFewestHostPoses - 1));
         BlockingDetector blocking = take(BlockingDetector::create(context(), desc, queue()));
         const std::vector<PairAnswer> found = take(blocking.detect(batch)).pairs;
-        EXPECT_FALSE(blocking.detector().desc().devicePoses);
+        EXPECT_FALSE(blocking.detector().impl().desc.devicePoses);
         std::vector<PairAnswer> piped;
         device::PairPipeline pipeline = take(device::PairPipeline::create(
             gpu().device, context(), blocking.detector(), {.frames = 2, .pairsPerSubmission = kFewestHostPoses}));
@@ -238,14 +241,13 @@ TEST_F(StagedTest, ConveniencesDoWithoutWhereThereIsNoRoom) {
     const std::vector<Mat4> poses(kPairs, identity());
     const BatchItem item{&mesh, &volume, &function, poses};
     const Batch batch{{&item, 1}};
-    const DetectorDesc desc{
-        .method = CountingMethod::Compute, .projection = Projection::Certified, .stopAtFirst = true};
+    const AnyDesc desc{.method = CountingMethod::Compute, .projection = Projection::Certified, .stopAtFirst = true};
     const ResultsDesc staged{.maxPairs = kPairs, .staged = true};
+    const Detector detector = take(Detector::create(context(), desc));
     const VkDeviceSize most = std::exchange(context().impl().maxAllocation, VkDeviceSize{kPairs} * 247);
-    const Result<Results> refused = Results::create(context(), staged);
+    const Result<Results> refused = Results::create(detector, staged);
     BlockingDetector blocking = take(BlockingDetector::create(context(), desc, queue()));
     const Result<BatchAnswer> answer = blocking.detect(batch);
-    const Detector detector = take(Detector::create(context(), desc));
     Result<device::PairPipeline> pipeline =
         device::PairPipeline::create(gpu().device, context(), detector, {.frames = 2, .pairsPerSubmission = kPairs});
     context().impl().maxAllocation = most;
@@ -285,9 +287,9 @@ TEST_F(StagedTest, BesidePosesOnTheDevice) {
     const std::array mixed{host, device, host};
     const std::array plain{host, host, host};
     const Detector detector =
-        take(Detector::create(context(), {.method = CountingMethod::Compute, .devicePoses = true}));
-    Results staged = take(Results::create(context(), {.maxPairs = 600, .staged = true}));
-    Results embedded = take(Results::create(context(), {.maxPairs = 600}));
+        take(Detector::raster(context(), {.method = CountingMethod::Compute, .devicePoses = true}));
+    Results staged = take(Results::create(detector, {.maxPairs = 600, .staged = true}));
+    Results embedded = take(Results::create(detector, {.maxPairs = 600}));
     EXPECT_EQ(run(detector, {mixed, view, kDefaultThreshold}, staged),
               run(detector, {plain, view, kDefaultThreshold}, embedded));
     const std::array mixedMany{device, many, device, host};

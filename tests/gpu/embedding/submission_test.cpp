@@ -97,7 +97,7 @@ TEST_F(SubmissionTest, NoFailureGivesAnOldAnswer) {
         for (const VkResult result : kTransient) {
             for (std::uint32_t at = 1; at <= kCalls.size() + 1; ++at) {
                 SCOPED_TRACE(std::string(function) + " fails at call " + std::to_string(at));
-                BlockingDetector detector = take(BlockingDetector::create(faulty(), {}, queue()));
+                BlockingDetector detector = take(BlockingDetector::create(faulty(), RasterDesc{}, queue()));
                 callFault = {.functions = {function}, .result = result, .first = at};
                 std::size_t errors = 0;
                 for (const auto& [touching, poses] : kCalls) {
@@ -118,7 +118,7 @@ TEST_F(SubmissionTest, NoFailureGivesAnOldAnswer) {
 }
 
 TEST_F(SubmissionTest, WhatCannotBeWaitedForIsNotTouched) {
-    BlockingDetector detector = take(BlockingDetector::create(faulty(), {}, queue()));
+    BlockingDetector detector = take(BlockingDetector::create(faulty(), RasterDesc{}, queue()));
     expectAnswer(take(detect(detector, someTouch(4, 4))), 4, 4);
     callFault = {.functions = {"vkWaitForFences", "vkQueueWaitIdle"}, .failing = UINT32_MAX};
     for (const char* text : {"waiting for the device", "an earlier submission"}) {
@@ -213,7 +213,7 @@ TEST_F(SubmissionTest, NoFailureGivesAnOldPicture) {
 }
 
 TEST_F(SubmissionTest, AFailedReadOfTimesIsAnError) {
-    BlockingDetector detector = take(BlockingDetector::create(faulty(), {}, queue()));
+    BlockingDetector detector = take(BlockingDetector::create(faulty(), RasterDesc{}, queue()));
     const BatchAnswer good = take(detect(detector, someTouch(4, 4)));
     if (good.gpuMilliseconds == 0) {
         GTEST_SKIP() << "the queue has no timestamps";

@@ -17,7 +17,8 @@ class OutputsTest : public GpuTest {
                                               std::uint32_t mostContacts = kManyContacts) const {
         return take(BlockingDetector::create(
             context(),
-            {.method = method, .filter = defaultFilter(method), .boundary = Boundary::Range, .outputs = outputs},
+            RasterDesc{
+                .method = method, .filter = defaultFilter(method), .boundary = Boundary::Range, .outputs = outputs},
             queue(), mostContacts));
     }
 

@@ -294,14 +294,15 @@ TEST_F(OutputsTest, EachOutputAlone) {
 }
 
 TEST_F(OutputsTest, WhatIsOffHasNoBuffers) {
-    const Results without = take(Results::create(context(), {.maxPairs = 4}));
+    const Results without = take(Results::create(take(Detector::raster(context(), {})), {.maxPairs = 4}));
     EXPECT_EQ(without.impl().outputs, nullptr);
     for (const BufferRange& range : {without.triangleCounts(), without.triangleMask(), without.contacts(),
                                      without.bounds(), without.labelCounts()}) {
         EXPECT_EQ(range.buffer, VkBuffer{VK_NULL_HANDLE});
         EXPECT_EQ(range.size, 0U);
     }
-    const Results with = take(Results::create(context(), {.maxPairs = 4, .room = OutputRoom{100, 7, 9}}));
+    const Results with = take(Results::create(take(Detector::raster(context(), {.outputs = kAllOutputs})),
+                                              {.maxPairs = 4, .room = {100, 7, 9}}));
     EXPECT_EQ(with.triangleCounts().size, 400U);
     EXPECT_EQ(with.triangleMask().size, 4U * (100 / 32 + 4));
     EXPECT_EQ(with.contacts().size, 16 + 9 * sizeof(ContactResult));
@@ -312,23 +313,21 @@ TEST_F(OutputsTest, WhatIsOffHasNoBuffers) {
         EXPECT_EQ(range.offset % 256, 0U);
         EXPECT_NE(range.buffer, VkBuffer{VK_NULL_HANDLE});
     }
+    const Results bounds = take(Results::create(take(Detector::raster(context(), {.outputs = {.bounds = true}})), {}));
+    EXPECT_EQ(bounds.bounds().size, 24U);
+    EXPECT_EQ(bounds.contacts().size, 0U);
 }
 
 TEST_F(OutputsTest, BadDepthsAndLabelMaps) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (const double depth : {0.0, -1.0, nan, std::numeric_limits<double>::infinity()}) {
-        const auto refused = Detector::create(context(), {.outputs = {.contacts = true, .maxDepth = depth}});
+        const auto refused = Detector::raster(context(), {.outputs = {.contacts = true, .maxDepth = depth}});
         ASSERT_FALSE(refused.ok()) << depth;
         EXPECT_EQ(refused.error().code, ErrorCode::InvalidArgument);
         EXPECT_THAT(refused.error().text, HasSubstr("the largest depth of contacts is"));
     }
-    EXPECT_TRUE(Detector::create(context(), {.outputs = {.bounds = true, .maxDepth = nan}}).ok());
-    EXPECT_THAT(Detector::create(context(), {.method = CountingMethod::Compute,
-                                             .projection = Projection::Certified,
-                                             .outputs = {.triangles = true},
-                                             .stopAtFirst = true})
-                    .error()
-                    .text,
+    EXPECT_TRUE(Detector::raster(context(), {.outputs = {.bounds = true, .maxDepth = nan}}).ok());
+    EXPECT_THAT(Detector::certified(context(), {.outputs = {.triangles = true}, .stopAtFirst = true}).error().text,
                 HasSubstr("a yes or no ends at the first survivor"));
     LabelData labels{unitGrid(2), std::vector<std::uint16_t>(8), {0, 3}};
     EXPECT_TRUE(LabelMap::create(context(), labels).ok());
@@ -374,13 +373,13 @@ TEST_F(OutputsTest, TheRasterMethodsNeedTheirFeatures) {
             take(device::VulkanDevice::create(gpu().instance, chosen, {.adjustFeatures = adjust}));
         const Context context = take(Context::create(device.contextDesc()));
         const Result<Detector> query =
-            Detector::create(context, {.method = CountingMethod::Query, .outputs = {.triangles = true}});
+            Detector::raster(context, {.method = CountingMethod::Query, .outputs = {.triangles = true}});
         ASSERT_FALSE(query.ok());
         EXPECT_EQ(query.error().code, ErrorCode::Unsupported);
         EXPECT_THAT(query.error().text, HasSubstr(feature));
         EXPECT_TRUE(
-            Detector::create(context, {.method = CountingMethod::Compute, .outputs = {.triangles = true}}).ok());
-        EXPECT_TRUE(Detector::create(context, {.method = CountingMethod::Query}).ok());
+            Detector::raster(context, {.method = CountingMethod::Compute, .outputs = {.triangles = true}}).ok());
+        EXPECT_TRUE(Detector::raster(context, {.method = CountingMethod::Query}).ok());
     };
     expectRefused([](FeatureRequest& request) { request.features2.features.fragmentStoresAndAtomics = VK_FALSE; },
                   "fragmentStoresAndAtomics");
@@ -392,11 +391,11 @@ TEST_F(OutputsTest, LimitsAreNamed) {
     ContextImpl& impl = context().impl();
     const VkPhysicalDeviceLimits limits = impl.limits;
     impl.limits.maxBoundDescriptorSets = 4;
-    EXPECT_THAT(Detector::create(context(), {.outputs = {.bounds = true}}).error().text,
+    EXPECT_THAT(Detector::raster(context(), {.outputs = {.bounds = true}}).error().text,
                 HasSubstr("maxBoundDescriptorSets is 4, 5 are needed"));
     impl.limits = limits;
     impl.limits.maxPerStageDescriptorStorageBuffers = 4;
-    EXPECT_THAT(Detector::create(context(), {.outputs = {.bounds = true}}).error().text,
+    EXPECT_THAT(Detector::raster(context(), {.outputs = {.bounds = true}}).error().text,
                 HasSubstr("maxPerStageDescriptorStorageBuffers is 4"));
     impl.limits = limits;
 }

@@ -58,8 +58,8 @@ TEST_F(RecordedOutputsTest, AMeshOfMoreTrianglesThanAWordHasBits) {
     const BatchItem item = scene.item();
     const View view = flatView(0, 1, 80, 80);
     const Detector detector =
-        take(Detector::create(context(), {.method = CountingMethod::Atomic, .outputs = {.triangles = true}}));
-    Results results = take(Results::create(context(), {.maxPairs = 1, .room = OutputRoom{.triangles = kTriangles}}));
+        take(Detector::raster(context(), {.method = CountingMethod::Atomic, .outputs = {.triangles = true}}));
+    Results results = take(Results::create(detector, {.maxPairs = 1, .room = {.triangles = kTriangles}}));
     const std::vector<std::uint32_t> all = wordsAfter(detector, {std::span(&item, 1), view, 0.5}, results);
     const std::vector<std::uint32_t> mask = wordsOf(results.triangleMask(), all);
     EXPECT_EQ(mask[0], 0xffffffffU);
@@ -72,9 +72,9 @@ TEST_F(RecordedOutputsTest, TheDevicesLayoutIsAsDocumented) {
     BatchItem items[] = {scene.item(), scene.item()};
     items[0].mesh = &cube;
     const Detector detector =
-        take(Detector::create(context(), {.method = CountingMethod::Atomic, .outputs = kAllOutputs}));
-    Results results = take(
-        Results::create(context(), {.maxPairs = 3, .room = OutputRoom{.triangles = 20, .labels = 5, .contacts = 8}}));
+        take(Detector::raster(context(), {.method = CountingMethod::Atomic, .outputs = kAllOutputs}));
+    Results results =
+        take(Results::create(detector, {.maxPairs = 3, .room = {.triangles = 20, .labels = 5, .contacts = 8}}));
     const std::vector<std::uint32_t> all = wordsAfter(detector, {items, sixteen(), 0.5}, results);
     const std::vector<std::uint32_t> counts = wordsOf(results.triangleCounts(), all);
     const std::vector<std::uint32_t> mask = wordsOf(results.triangleMask(), all);
@@ -116,9 +116,8 @@ TEST_F(RecordedOutputsTest, ResultsAreUsedAgainAndReadByFrames) {
     const Mat4 away = translation({0, 0, 5});
     BatchItem item = scene.item();
     const Detector detector =
-        take(Detector::create(context(), {.method = CountingMethod::Query, .outputs = kAllOutputs}));
-    ResultRing ring =
-        take(ResultRing::create(context(), 2, {.room = OutputRoom{.triangles = 2, .labels = 2, .contacts = 256}}));
+        take(Detector::raster(context(), {.method = CountingMethod::Query, .outputs = kAllOutputs}));
+    ResultRing ring = take(ResultRing::create(detector, 2, {.room = {.triangles = 2, .labels = 2, .contacts = 256}}));
     Submitter submitter = take(Submitter::create(context().impl(), queue()));
     for (std::uint64_t frame = 0; frame < 6; ++frame) {
         item.world_from_object = frame % 3 == 0 ? std::span(&away, 1) : std::span(&scene.pose, 1);
@@ -144,24 +143,29 @@ TEST_F(RecordedOutputsTest, ResultsAreUsedAgainAndReadByFrames) {
 TEST_F(RecordedOutputsTest, RoomIsCheckedBeforeAnythingIsRecorded) {
     const Simple scene = simple();
     const BatchItem items[] = {scene.item(), scene.item()};
-    const Detector detector = take(Detector::create(
+    const Detector detector = take(Detector::raster(
         context(), {.method = CountingMethod::Atomic, .outputs = {.triangles = true, .labels = true}}));
-    const auto refusal = [&](const std::optional<OutputRoom>& room) {
-        Results results = take(Results::create(context(), {.maxPairs = 2, .room = room}));
+    const auto refusal = [&](const Detector& of, const OutputRoom& room) {
+        Results results = take(Results::create(of, {.maxPairs = 2, .room = room}));
         Submitter submitter = take(Submitter::create(context().impl(), queue()));
         const Result<void> recorded = detector.cmdDetect(take(submitter.begin()), {items, sixteen(), 0.5}, results);
         return recorded.ok() ? std::string() : recorded.error().text;
     };
-    EXPECT_THAT(refusal(std::nullopt), HasSubstr("without room"));
-    EXPECT_THAT(refusal(OutputRoom{.triangles = 3, .labels = 4}),
+    const Detector fewer = take(Detector::raster(context(), {.outputs = {.triangles = true, .contacts = true}}));
+    const Detector all = take(Detector::raster(context(), {.outputs = kAllOutputs}));
+    EXPECT_EQ(refusal(fewer, {.triangles = 4}), "the detector has outputs that the detector of the Results lacks");
+    EXPECT_THAT(refusal(detector, {.triangles = 3, .labels = 4}),
                 HasSubstr("have 4 triangles, the Results have room for 3"));
-    EXPECT_THAT(refusal(OutputRoom{.triangles = 4, .labels = 3}),
+    EXPECT_THAT(refusal(detector, {.triangles = 4, .labels = 3}),
                 HasSubstr("have 4 labels, the Results have room for 3"));
-    EXPECT_EQ(refusal(OutputRoom{.triangles = 4, .labels = 4, .contacts = 0}), "");
-    for (const OutputRoom& room : {OutputRoom{.triangles = std::numeric_limits<std::uint64_t>::max()},
-                                   OutputRoom{.labels = std::numeric_limits<std::uint64_t>::max()},
-                                   OutputRoom{.contacts = std::numeric_limits<std::uint32_t>::max()}}) {
-        const Result<Results> results = Results::create(context(), {.room = room});
+    EXPECT_EQ(refusal(detector, {.triangles = 4, .labels = 4, .contacts = 0}), "");
+    EXPECT_EQ(refusal(all, {.triangles = 4, .labels = 4}), "");
+    EXPECT_EQ(Results::create(all, {.room = {.triangles = 4}}).error().text,
+              "ResultsDesc::room.labels is 0; the detector has the output labels");
+    for (const OutputRoom& room : {OutputRoom{std::numeric_limits<std::uint64_t>::max(), 1, 1},
+                                   OutputRoom{1, std::numeric_limits<std::uint64_t>::max(), 1},
+                                   OutputRoom{1, 1, std::numeric_limits<std::uint32_t>::max()}}) {
+        const Result<Results> results = Results::create(all, {.room = room});
         ASSERT_FALSE(results.ok());
         EXPECT_EQ(results.error().code, ErrorCode::LimitExceeded);
         EXPECT_THAT(results.error().text, HasSubstr("maxStorageBufferRange"));

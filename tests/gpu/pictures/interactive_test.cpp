@@ -26,7 +26,7 @@ constexpr double kThreshold = 0.25;
 constexpr std::uint32_t kTableSize = 200;
 
 /// The ways to count, as far as they read the table in ways of their own.
-constexpr DetectorDesc kWays[] = {
+constexpr AnyDesc kWays[] = {
     {.method = CountingMethod::Query},
     {.method = CountingMethod::Atomic},
     {.method = CountingMethod::Compute, .filter = Filter::Exact},
@@ -112,9 +112,9 @@ class InteractiveTest : public PictureTest {
         if (IsSkipped() || HasFatalFailure()) {
             return;
         }
-        for (const DetectorDesc& way : kWays) {
+        for (const AnyDesc& way : kWays) {
             detectors_.push_back(detector(way));
-            rings_.push_back(take(ResultRing::create(context(), kInFlight, {.maxPairs = 1})));
+            rings_.push_back(take(ResultRing::create(detectors_.back().detector(), kInFlight, {.maxPairs = 1})));
         }
         volume_.emplace(take(Volume::upload(context(), queue(), head_.view(), {.bricks = true})));
         mesh_.emplace(take(Mesh::upload(context(), queue(), ellipsoid_.view(), {.clusters = true})));

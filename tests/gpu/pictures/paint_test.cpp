@@ -338,9 +338,9 @@ TEST_F(PaintTest, TrianglesFromADetectorInTheSameCommandBuffer) {
     placeMesh(ellipsoid);
     // On the head's rim.
     scene_.world_from_object = translation(transformPoint(worldFromTexture(head.grid), {0.2, 0.5, 0.5}));
-    const DetectorDesc desc{.method = CountingMethod::Query, .outputs = {.triangles = true}};
+    const AnyDesc desc{.method = CountingMethod::Query, .outputs = {.triangles = true}};
     const Detector detector = take(Detector::create(context(), desc));
-    Results results = take(Results::create(context(), {.room = OutputRoom{.triangles = scene_.mesh->triangles()}}));
+    Results results = take(Results::create(detector, {.room = {.triangles = scene_.mesh->triangles()}}));
     const PaintedTriangles painted = take(PaintedTriangles::wrap(renderer(), results.triangleMask()));
     const BatchItem item{scene_.mesh, scene_.volume, scene_.paint.transferFunction, {&scene_.world_from_object, 1}};
     const Batch batch{{&item, 1}, {scene_.clip_from_world, 400, 400}, kPaintThreshold};
@@ -430,7 +430,8 @@ TEST_F(PaintRefusalTest, TrianglesThatCannotBe) {
                 HasSubstr("triangle 7 is to be painted, the mesh has 7"));
     EXPECT_THAT(text(PaintedTriangles::create(renderer(), 0, {})), HasSubstr("without triangles"));
     EXPECT_THAT(text(PaintedTriangles::wrap(renderer(), {})), HasSubstr("null buffer"));
-    const Results results = take(Results::create(context(), {.room = OutputRoom{.triangles = 1000}}));
+    const Detector detector = take(Detector::raster(context(), {.outputs = {.triangles = true}}));
+    const Results results = take(Results::create(detector, {.room = {.triangles = 1000}}));
     BufferRange mask = results.triangleMask();
     mask.offset += 4;
     EXPECT_THAT(text(PaintedTriangles::wrap(renderer(), mask)), HasSubstr("no multiple of 256"));

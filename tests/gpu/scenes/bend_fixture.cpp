@@ -24,7 +24,7 @@ constexpr Outputs kAll{.triangles = true, .contacts = true, .bounds = true, .lab
 /// Whether it depends on which fragments lanes have together how many are counted: one that is divided as far as any
 /// may be can use up the rounds of loops that llvmpipe lets all of them have (docs/facts.md). That pair is undecided
 /// then.
-bool mayBeCut(const DetectorDesc& desc, const BatchAnswer& answer) {
+bool mayBeCut(const PassDesc& desc, const BatchAnswer& answer) {
     return desc.projection == Projection::Certified && !desc.stopAtFirst &&
            std::ranges::any_of(answer.pairs,
                                [](const PairAnswer& pair) { return pair.exactness == Exactness::LowerBound; });
@@ -86,7 +86,7 @@ void BendFixture::TearDown() {
 }
 
 std::vector<BendFixture::Way> BendFixture::allWays() const {
-    std::vector<DetectorDesc> descs;
+    std::vector<AnyDesc> descs;
     for (const MethodSupport& method : context().methods()) {
         if (!method.available) {
             continue;
@@ -102,7 +102,7 @@ std::vector<BendFixture::Way> BendFixture::allWays() const {
     }
     descs.push_back({.method = CountingMethod::Compute, .projection = Projection::Certified, .stopAtFirst = true});
     std::vector<Way> ways;
-    for (const DetectorDesc& desc : descs) {
+    for (const AnyDesc& desc : descs) {
         ways.push_back({take(Detector::create(context(), desc)), {}});
     }
     return ways;
@@ -113,9 +113,9 @@ void BendFixture::detect(VkCommandBuffer commands, std::vector<Way>& ways, const
     const auto pairs = static_cast<std::uint32_t>(poses_.size());
     for (Way& way : ways) {
         while (way.results.size() <= which) {
-            way.results.push_back(take(Results::create(
-                context(), {.maxPairs = kMostPairs,
-                            .room = OutputRoom{.triangles = 20000, .labels = 12, .contacts = kContacts}})));
+            way.results.push_back(take(
+                Results::create(way.detector, {.maxPairs = kMostPairs,
+                                               .room = {.triangles = 20000, .labels = 12, .contacts = kContacts}})));
         }
         ASSERT_LE(pairs, kMostPairs);
         take(way.detector.cmdDetect(commands, {{&asked, 1}, view_, 0.5}, way.results[which]));
@@ -143,12 +143,13 @@ void BendFixture::expectFresh(std::vector<Way>& ways, const MeshData& shape, std
     for (Way& way : ways) {
         const BatchAnswer expected = answerOf(way, 0);
         const BatchAnswer found = answerOf(way, which);
-        if (mayBeCut(way.detector.desc(), expected) || mayBeCut(way.detector.desc(), found)) {
+        const PassDesc& desc = way.detector.impl().desc;
+        if (mayBeCut(desc, expected) || mayBeCut(desc, found)) {
             ASSERT_EQ(hitsOf(found), hitsOf(expected));
             ++cut_;
         } else {
             ASSERT_EQ(everythingOf(found), everythingOf(expected))
-                << toString(way.detector.desc().projection) << " by " << toString(way.detector.desc().method);
+                << toString(desc.projection) << " by " << toString(desc.method);
             ++whole_;
         }
         for (const PairAnswer& pair : expected.pairs) {

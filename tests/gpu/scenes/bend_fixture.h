@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cpu/scenes/bent_meshes.h"
+#include "device/detector/detector_impl.h"
 #include "raw_fixture.h"
 #include "vulkan/context_impl.h"
 

@@ -122,10 +122,7 @@ TEST_F(MeshBendTest, BoxesAreTheHostsForAllKindsOfFloats) {
 /// Vertices that need several vkCmdUpdateBuffer, and more clusters than a device has work groups in a row.
 TEST_F(MeshBendTest, AMeshOfFiftyThousandVertices) {
     std::vector<Way> ways;
-    ways.push_back({take(Detector::create(context(), {.method = CountingMethod::Compute,
-                                                      .projection = Projection::Certified,
-                                                      .outputs = {.bounds = true}})),
-                    {}});
+    ways.push_back({take(Detector::certified(context(), {.outputs = {.bounds = true}})), {}});
     MeshData shape = take(makeEllipsoid(99996));
     EXPECT_EQ(take(checkMesh(shape.view())).vertices, 50000U);
     for (double& coordinate : shape.positions) {
@@ -164,10 +161,9 @@ TEST_F(MeshBendTest, WithTwoFramesInFlight) {
         return data;
     }();
     poses_ = {translation(transformPoint(worldFromTexture(image_.grid), {0.6, 0.5, 0.4}))};
-    const Detector certified =
-        take(Detector::create(context(), {.method = CountingMethod::Compute, .projection = Projection::Certified}));
-    BlockingDetector judge = detector(certified.desc());
-    ResultRing ring = take(ResultRing::create(context(), 2, {.maxPairs = 1}));
+    const Detector certified = take(Detector::certified(context()));
+    BlockingDetector judge = take(BlockingDetector::create(context(), certified.desc(), queue()));
+    ResultRing ring = take(ResultRing::create(certified, 2, {.maxPairs = 1}));
     Mesh mesh = editable(ellipsoid, true);
     std::vector<VkFence> fences;
     std::vector<MeshData> shapes;
@@ -276,9 +272,8 @@ TEST_F(MeshBendTest, FromABufferThatAShaderHasWritten) {
     wrapped.storage = wrapped.clusters = true;
     Mesh theirs = take(Mesh::wrap(context(), wrapped));
     Mesh ours = editable(flat, true);
-    const Detector certified =
-        take(Detector::create(context(), {.method = CountingMethod::Compute, .projection = Projection::Certified}));
-    const Detector query = take(Detector::create(context(), {.method = CountingMethod::Query}));
+    const Detector certified = take(Detector::certified(context()));
+    const Detector query = take(Detector::raster(context(), {.method = CountingMethod::Query}));
     const Mat4 pose = identity();
     const BatchItem items[] = {{&ours, &volume, &*function_, {&pose, 1}}, {&theirs, &volume, &*function_, {&pose, 1}}};
     std::deque<Results> results;
@@ -289,7 +284,7 @@ TEST_F(MeshBendTest, FromABufferThatAShaderHasWritten) {
         take(ours.cmdCopy(commands, vertices, 0));
         take(theirs.cmdRefit(commands));
         for (const Detector* each : {&certified, &query}) {
-            results.push_back(take(Results::create(context(), {.maxPairs = 2})));
+            results.push_back(take(Results::create(*each, {.maxPairs = 2})));
             take(each->cmdDetect(commands, {items, flatView(0, 1, 20, 20), 0.5}, results.back()));
             take(results.back().cmdReadBack(commands));
         }
@@ -345,8 +340,8 @@ TEST_F(MeshBendTest, NumbersThatAreNoneSpoilTheirTrianglesAlone) {
             }
             return out;
         };
-        EXPECT_EQ(touched(2), touched(1)) << toString(way.detector.desc().projection);
-        EXPECT_TRUE(way.detector.desc().stopAtFirst || touched(1).size() > 5U);
+        EXPECT_EQ(touched(2), touched(1)) << toString(way.detector.impl().desc.projection);
+        EXPECT_TRUE(way.detector.impl().desc.stopAtFirst || touched(1).size() > 5U);
     }
 }
 

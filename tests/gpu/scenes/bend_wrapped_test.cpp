@@ -224,8 +224,8 @@ TEST_F(WrappedBendTest, WhatIsRefused) {
     wrapped.clusters = true;
     Mesh mesh = take(Mesh::wrap(context(), wrapped));
     EXPECT_THAT(text(mesh.cmdRefit(commands)), HasSubstr("the mesh was never uploaded"));
-    const Detector query = take(Detector::create(context(), {.method = CountingMethod::Query}));
-    Results results = take(Results::create(context(), {.maxPairs = 1}));
+    const Detector query = take(Detector::raster(context(), {.method = CountingMethod::Query}));
+    Results results = take(Results::create(query, {.maxPairs = 1}));
     const BatchItem asked = item(mesh);
     EXPECT_THAT(text(query.cmdDetect(commands, {{&asked, 1}, view_, 0.5}, results)),
                 HasSubstr("the mesh was never uploaded"));

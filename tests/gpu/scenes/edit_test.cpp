@@ -319,13 +319,13 @@ TEST_F(EditTest, TakeEffectInCommandBufferOrder) {
     for (const CountingMethod method : {CountingMethod::Query, CountingMethod::Atomic, CountingMethod::Compute}) {
         Volume volume = editable(data);
         TransferFunction function = upload(byteRamp(), kBytes);
-        const Detector counting = take(Detector::create(context(), {.method = method}));
+        const Detector counting = take(Detector::raster(context(), {.method = method}));
         const BatchItem item{&mesh, &volume, &function, std::span(&pose, 1)};
         const Batch batch{std::span(&item, 1), flatView(0, 1, 64, 64), 0.5};
         std::vector<Results> results;
         const VkCommandBuffer commands = raw().begin();
         const auto detect = [&] {
-            results.push_back(take(Results::create(context(), {.maxPairs = 1})));
+            results.push_back(take(Results::create(counting, {.maxPairs = 1})));
             take(counting.cmdDetect(commands, batch, results.back()));
             take(results.back().cmdReadBack(commands));
         };
@@ -354,7 +354,7 @@ TEST_F(EditTest, WhatTheHostKnowsIsWidened) {
     Volume volume = editable(data);
     const Mesh mesh = upload(makeFlat(0, 1, 0, 1, 0.5));
     const TransferFunction function = upload(byteRamp(), kBytes);
-    const Detector counting = take(Detector::create(context(), {}));
+    const Detector counting = take(Detector::raster(context(), {}));
     const auto boundary = [&] { return counting.boundaryFor({&mesh, &volume, &function, {}}, 0.5); };
     const VkCommandBuffer commands = raw().begin();
     take(volume.cmdSet(commands, VoxelBox{{1, 1, 1}, {6, 6, 6}}, 255));

@@ -54,9 +54,9 @@ TEST_F(TableUpdateTest, AnUploadTakesItBack) {
     TransferFunction function = take(TransferFunction::create(context(), first));
     const BatchItem item{&mesh, &volume, &function, std::span(&pose, 1)};
     const Batch batch{std::span(&item, 1), {}, 0.5};
-    Results results = take(Results::create(context(), {.maxPairs = 1}));
     const Detector asking =
-        take(Detector::create(context(), {.method = CountingMethod::Compute, .projection = Projection::DominantAxis}));
+        take(Detector::raster(context(), {.method = CountingMethod::Compute, .projection = Projection::DominantAxis}));
+    Results results = take(Results::create(asking, {.maxPairs = 1}));
     const VkCommandBuffer commands = raw.begin();
     take(function.cmdUpload(commands));
     take(function.cmdUpdate(commands, {kThousandRamp, {0, 1000}}));
@@ -79,12 +79,12 @@ TEST_F(TableUpdateTest, TakesEffectInCommandBufferOrder) {
     const Mat4 pose = identity();
     for (const CountingMethod method : {CountingMethod::Query, CountingMethod::Atomic, CountingMethod::Compute}) {
         TransferFunction function = upload(byteRamp(), kBytes);
-        const Detector counting = take(Detector::create(context(), {.method = method}));
+        const Detector counting = take(Detector::raster(context(), {.method = method}));
         const BatchItem item{&mesh, &volume, &function, std::span(&pose, 1)};
         const Batch batch{std::span(&item, 1), flatView(0, 1, 64, 64), 0.5};
         std::vector<Results> results;
         for (int i = 0; i < 4; ++i) {
-            results.push_back(take(Results::create(context(), {.maxPairs = 1})));
+            results.push_back(take(Results::create(counting, {.maxPairs = 1})));
         }
         const VkCommandBuffer commands = raw.begin();
         take(counting.cmdDetect(commands, batch, results[0]));
@@ -110,7 +110,7 @@ TEST_F(TableUpdateTest, TheProofOfTheBoundaryFollows) {
     const Volume volume = upload(makeBytes(unitGrid(8), [](auto...) { return 0.0; }));
     const Mesh mesh = upload(makeFlat(0, 1, 0, 1, 0.5));
     TransferFunction function = upload(byteRamp(), kBytes);
-    const Detector counting = take(Detector::create(context(), {}));
+    const Detector counting = take(Detector::raster(context(), {}));
     EXPECT_EQ(counting.boundaryFor({&mesh, &volume, &function, {}}, 0.5), Boundary::Clamp);
     const VkCommandBuffer commands = raw.begin();
     take(function.cmdUpdate(commands, {kAllOpaque, kBytes}));
