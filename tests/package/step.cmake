@@ -27,7 +27,7 @@ macro(run_program path expected)
 endmacro()
 
 # What the examples print: of 4 mm of the plate, 32 pixels, 24 are in the opaque half.
-set(embed_prints "^hit 1, 768 fragments, method query\n$")
+set(embed_prints "^certified: touch\nwrapped: 1024 fragments, method query\n$")
 set(embed_c_prints
     "^touch 1, 768 fragments, method cpu\ndistance 0 to 0 mm\ntouch 1, 768 fragments, method query\n$")
 
