@@ -241,7 +241,7 @@ CertifiedBox boxAt(uint word) {
                         uintBitsToFloat(indices[word + 4]), uintBitsToFloat(indices[word + 5]));
 }
 
-/// Of a mesh with clusters.
+/// Returns the box of a cluster. Expects a mesh with clusters.
 CertifiedBox boxOfCluster(uint number) {
     return boxAt(constants.clusterWord + 6 * number);
 }

@@ -411,8 +411,8 @@ EXACT int certifiedBegin(OpaqueValues opaque, CertifiedTriangle triangle, Certif
     return certifiedClip(triangle, cell, voxelPoint(float(x), float(y), float(z)) HAND(polygon));
 }
 
-/// The same of a precise triangle, in the cell of preciseCell(), or of what is certainly in the domain, `within`, in
-/// that of preciseWithin(). Returns CERTIFIED_NO_POLYGON if nothing is known.
+/// Like certifiedBegin(), for a precise triangle in the cell of preciseCell() or, with `within`, for its part that is
+/// certainly in the domain, in the cell of preciseWithin(). Returns CERTIFIED_NO_POLYGON if nothing is known.
 EXACT int certifiedBeginAgain(PreciseTriangle triangle, CertifiedCell cell, int x, int y, int z,
                               bool within HANDED(VoxelPoint, polygon, CERTIFIED_MAX_CORNERS)) {
     if (!preciseKnown(triangle)) {

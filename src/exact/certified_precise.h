@@ -9,12 +9,13 @@
 #include "certified_cell.h"
 #include "precise.h"
 
-/// Of the largest coordinate, in voxels: more than a place of two floats loses in a division, a cut and their sums.
+/// Relative to the largest coordinate, in voxels: bounds the error of a position of two floats after a division, a cut
+/// and their sums.
 #define PRECISE_PLACE_ERROR 3.637978807091713e-12f
-/// Voxels: more than a place in a cell loses when it is rounded to floats, and its pieces when they are halved.
+/// Voxels: bounds the error of a position in a cell by rounding to floats, and of its pieces by halving.
 #define PRECISE_LEAST_DELTA 9.5367431640625e-7f
 #define PRECISE_FACES 6
-/// Where certifiedDomain() ends the domain in a cell.
+/// End of the domain in a cell, as in certifiedDomain().
 #define CERTIFIED_DOMAIN_END 0.5f
 
 #include "exact_language.h"
@@ -112,7 +113,7 @@ EXACT PreciseThree preciseFromFace(PairHandle pair, int axis, VoxelPoint vertex)
 
 /// Returns the position of a vertex relative to a face; `from` is its distance inside.
 EXACT void preciseSide(PreciseThree from, float missing, int face, INOUT(PreciseVertex) vertex) {
-    // What is behind `high` is less than half of it.
+    // The parts after `high` are less than half of it.
     PRECISE float least = 0.5f * from.high;
     vertex.inside |= least >= missing ? 1 << face : 0;
     vertex.on |= from.high == 0.0f && missing == 0.0f ? 1 << face : 0;
@@ -371,7 +372,7 @@ EXACT PreciseTwo preciseScaled(PreciseTwo from, PreciseTwo to, float scale) {
     return preciseTimes(preciseMinus(to, from), preciseTwo(scale, 0.0f));
 }
 
-/// Of a triangle that is known.
+/// Returns the plane of a triangle of known position.
 EXACT PrecisePlane precisePlane(CertifiedItem item, PreciseTriangle triangle) {
     const float scale = 0.5f * exactReciprocal(triangle.far);
     const PreciseTwo ux = preciseScaled(triangle.a.x, triangle.b.x, scale);

@@ -285,11 +285,11 @@ EXACT bool certifiedEdgeMisses(VoxelPoint edge, VoxelPoint a, VoxelPoint b, Voxe
                                  edge.y * c.x - edge.x * c.y) > radius.x * y + radius.y * x;
 }
 
-/// Whether such an axis certainly separates the triangle, and pieces of it that are displaced by its delta, from a box,
-/// as certifiedPlaneMissesBox() has it. For large triangles, which may be thin: their box, and their plane, meet far
-/// more. Whatever direction an axis has, what it separates is apart; so only the places on it are to be known. Each is
-/// off by less than 2^-21 of the farthest corner's distance, times the sum of the axis' components: the margin has
-/// eight times that, and what clipping does to a piece.
+/// Returns true if such an axis certainly separates the triangle, and pieces displaced by its delta, from a box, like
+/// certifiedPlaneMissesBox(). For large, thin triangles, whose box and plane meet far more. Any direction of an axis
+/// gives a valid separation, so only positions on the axis have errors. Each is off by less than 2^-21 of the farthest
+/// corner's distance, times the sum of the axis' components: the margin has eight times that, and what clipping does to
+/// a piece.
 EXACT bool certifiedEdgesMissBox(CertifiedTriangle triangle, VoxelPoint centre, VoxelPoint radius) {
     const VoxelPoint a = voxelDifference(triangle.corner0, centre);
     const VoxelPoint b = voxelDifference(triangle.corner1, centre);

@@ -44,7 +44,7 @@
 #define OPERATION_LONG_DIFFERENCE 29
 #define OPERATION_LONG_SIGN 30
 #define OPERATION_LONG_TO_FLOAT 31
-// Of double precision, for devices that have it: shaders with DOUBLES.
+// Operations in double precision, for devices that support it: shaders with DOUBLES.
 #define OPERATION_WIDE_ADD 32
 #define OPERATION_WIDE_SUBTRACT 33
 #define OPERATION_WIDE_MULTIPLY 34
@@ -54,7 +54,7 @@
 #define OPERATION_WIDE_SPECIAL_ADD 38
 #define OPERATION_WIDE_SPECIAL_MULTIPLY 39
 #define OPERATION_WIDE_SPECIAL_COMPARE 40
-/// How many there are.
+/// Number of operations.
 #define OPERATION_COUNT 41
 /// The last one: operations of lanes together. Its results are those of a work group, OPERATION_GROUP_WORDS each.
 #define OPERATION_GROUP 41
@@ -288,7 +288,7 @@ EXACT void operationOnLongs(int operation, uint a, uint b, uint c, uint d, OUT(u
 
 /// One operation on four words; two words of results.
 EXACT void operate(int operation, uint a, uint b, uint c, uint d, OUT(uint) low, OUT(uint) high) {
-    // Those on zeros, infinities, NaN and what is huge or tiny take the words as they are.
+    // Operations on zeros, infinities, NaN, huge and tiny numbers take the words unchanged.
     const bool special = operation == OPERATION_FLOAT_COMPARE_SPECIAL || operation == OPERATION_FLOAT_SPECIAL_ADD ||
                          operation == OPERATION_FLOAT_SPECIAL_MULTIPLY;
     const float left = special ? floatOf(a) : operationModerate(a);

@@ -191,7 +191,7 @@ struct PairReference {
 /// Returns the point of object space at the volume's centre, rounded to float: points near the volume are then near the
 /// reference, for any object origin. The origin if there is no such point.
 EXACT PairReference pairReference(PairGrid grid, WideMatrix m) {
-    // Of the determinant, and of what it divides.
+    // Sums of the determinant and of its dividends.
     Wide sum[4];
     ROLLED for (uint axis = 0; axis < 4; ++axis) {
         ROLLED for (uint i = 0; i < 3; ++i) {
@@ -242,7 +242,7 @@ struct PairParts {
     Wide left;
 };
 
-/// Of value + low, the second the smaller by far.
+/// Splits value + low into parts; `low` is much smaller.
 EXACT PairParts pairParts(Wide value, Wide low) {
     PairParts parts;
     Wide rest = value;
@@ -264,7 +264,7 @@ EXACT PairParts pairParts(Wide value, Wide low) {
     return parts;
 }
 
-/// An element of `place` of a CertifiedPair: value + low, the second the smaller by far, and by how much it may be off.
+/// An element of `place` of a CertifiedPair: value + low, where `low` is much smaller, and its error.
 struct PairPlace {
     Wide value;
     Wide low;

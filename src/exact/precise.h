@@ -39,7 +39,7 @@ EXACT PreciseTwo preciseSum(float a, float b) {
     return preciseTwo(sum, lost);
 }
 
-/// The same for |a| >= |b|.
+/// Like preciseSum(), for |a| >= |b|.
 EXACT PreciseTwo preciseQuickSum(float a, float b) {
     PRECISE float sum = a + b;
     PRECISE float ofB = sum - a;
@@ -72,7 +72,7 @@ EXACT PreciseTwo preciseProduct(float a, float b) {
     return preciseTwo(product, lost);
 }
 
-// Of two floats, within a few units of 2^-48 of the terms.
+// Operations on pairs of floats, with errors of a few units of 2^-48 of the terms.
 
 EXACT PreciseTwo precisePlus(PreciseTwo a, PreciseTwo b) {
     const PreciseTwo highs = preciseSum(a.high, b.high);

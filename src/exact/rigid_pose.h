@@ -31,7 +31,7 @@ struct RigidWay {
 };
 
 #define RIGID_TWO wideBits(0x40000000u, 0u)
-/// Of the series of sine and cosine: of an angle of no more than a right one, the next is less than 2^-62.
+/// Terms of the series of sine and cosine: for angles up to a right one, the next term is less than 2^-62.
 #define RIGID_SERIES 12
 #define RIGID_LAST_OF_SINE wideBits(0x40380000u, 0u)   // 24
 #define RIGID_LAST_OF_COSINE wideBits(0x40370000u, 0u) // 23

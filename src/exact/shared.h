@@ -258,7 +258,7 @@ struct CertifiedConstants {
 #define VOXTACT_BINDING_SETUP_ITEMS 2
 /// Words of an item's constants, and items at once.
 #define VOXTACT_SETUP_WORDS 128
-/// Of them, where the PairOrigin of its mesh is.
+/// Offset of the PairOrigin of the item's mesh in these words.
 #define VOXTACT_SETUP_ORIGIN 96
 #define VOXTACT_SETUP_ITEMS 16
 /// A pose of the host's: 16 doubles.
@@ -277,11 +277,11 @@ struct CertifiedConstants {
 #define VOXTACT_CONSTANT_STOP_AT_FIRST 5
 #define VOXTACT_CONSTANT_COUNTERS 6
 #define VOXTACT_CONSTANT_OUTPUTS 16
-// Where the push constants of dominant.vert begin: room for those of the fragment program is before them.
+// Offset of the push constants of dominant.vert, after those of the fragment program.
 #define VOXTACT_OFFSET_DOMINANT 96
 // Lanes of a work group of the compute path.
 #define VOXTACT_COMPUTE_GROUP 64
-// Those of the brick pass.
+// Lanes of a work group of the brick pass.
 #define VOXTACT_BRICK_GROUP 64
 // A brick is 2^VOXTACT_BRICK_SHIFT cells per side: src/core/volume/bricks.h.
 #define VOXTACT_BRICK_SHIFT 3

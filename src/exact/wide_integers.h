@@ -112,7 +112,7 @@ EXACT WideWord wordRight(WideWord a, uint bits) {
     return result;
 }
 
-/// Of a number that is not zero.
+/// Returns the leading zeros of a number other than zero.
 EXACT uint wordLeadingZeros(WideWord a) {
     const uint ofLow = 32u + wideLeadingZeros(a.low);
     const uint ofHigh = wideLeadingZeros(a.high);
@@ -163,7 +163,7 @@ EXACT int wideScale(Wide a) {
     return int(stored + uint(stored == 0u));
 }
 
-/// Of a number that is neither infinite nor NaN.
+/// Returns the parts of a finite number.
 EXACT WideParts wideParts(Wide a) {
     const WideWord stored = wideStored(a);
     const uint shift = (wordLeadingZeros(stored) - 1u) & 63u;
@@ -195,9 +195,10 @@ EXACT Wide wideSpecial(Wide found, uint zero, uint infinite, uint nan) {
     return wideEither((nan | (zero & infinite)) != 0u, wideNan(), number);
 }
 
-/// Of two numbers that are neither zero, infinite nor NaN.
+/// Returns the quotient of two finite numbers other than zero.
 EXACT Wide wideQuotientOfParts(WideParts a, WideParts b) {
-    // 54 bits of the quotient, the first of them one, a bit a round; the remainder is less than twice the divisor.
+    // Computes 54 bits of the quotient, one per round; the first bit is one, and the remainder is less than twice the
+    // divisor.
     const WideWord divisor = wordRight(b.significand, 10u);
     const WideWord dividend = wordRight(a.significand, 10u);
     const uint shift = uint(wordLess(dividend, divisor));

@@ -28,7 +28,7 @@ std::uint64_t difference(std::uint64_t a, std::uint64_t b) {
     return std::max(a, b) - std::min(a, b);
 }
 
-/// Of methods that must all count the same.
+/// Returns the verdict on methods that must all count the same.
 CompareVerdict verdictOn(const std::vector<std::string>& methods) {
     return {.rule = joined(methods, " = "), .members = listed(methods)};
 }

@@ -24,7 +24,7 @@ constexpr std::uint32_t kFramesInFlight = 3;
 constexpr std::size_t kWarmUpPairs = 16;
 /// A sample is cut so that this many fit.
 constexpr double kSamplesInShare = 3;
-/// Of the time limit; describe() says it in words.
+/// Maximum share of a sample in the time limit, described by describe().
 constexpr double kLongestSample = 0.25;
 
 /// A measurement that is repeated: what, by whom, and where its samples go.

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-/// What people use today, to compare with: the Flexible Collision Library, a mesh of triangles against an octree of
-/// the opaque voxels. Part of the program where FCL and OctoMap are found when it is built. Of plain types alone: FCL's
-/// headers take minutes to compile, and are not compiled again because one of ours has changed.
+/// A library to compare with: the Flexible Collision Library, a mesh of triangles against an octree of the opaque
+/// voxels. Part of the program if the build finds FCL and OctoMap. Uses plain types only: FCL's headers take minutes to
+/// compile, and need no recompilation after changes of ours.
 namespace voxtact::lab {
 
 /// Column-major, as Mat4.

@@ -40,8 +40,8 @@ class Localizer {
   public:
     [[nodiscard]] static Result<Localizer> create(const Context& context, Filter filter, const QueueAccess& queue);
 
-    /// Of a batch of one pair: its triangles, by number, the queries, the nodes that were tested, and the times, from
-    /// the tree's root to the results in host memory. InvalidArgument where an aid is missing, or the tree is of
+    /// Runs a batch of one pair. Returns its triangles, by number, the queries, the tested nodes, and the times, from
+    /// the tree's root to the results in host memory. Returns InvalidArgument if an aid is missing, or the tree has
     /// another number of triangles.
     [[nodiscard]] Result<lab::Pass> triangles(const Batch& batch, Localization way, const LocalizeAids& aids = {});
 

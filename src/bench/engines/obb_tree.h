@@ -37,9 +37,9 @@ struct ObbTree {
 /// SIGGRAPH 1996, section 4). The same mesh gives the same tree. Expects a mesh that checkMesh() accepts.
 [[nodiscard]] ObbTree makeObbTree(const MeshView& mesh);
 
-/// Whether a node's box under an affine matrix, which may stretch and shear, meets a closed box (lo <= hi); "texture"
-/// for the space that it is mostly asked in. Separating axes (section 5 of the same paper), with margins for rounding:
-/// true where it is in doubt, false only where they certainly have no point in common.
+/// Tests whether a node's box under an affine matrix, which may stretch and shear, meets a closed box (lo <= hi),
+/// usually in texture space. Separating axes (section 5 of the same paper), with margins for rounding: false only if
+/// they are certainly disjoint.
 [[nodiscard]] bool obbMeetsBox(const ObbNode& node, const Mat4& texture_from_object, const Box& box) noexcept;
 
 /// The triangles of the leaves that `meets(node)` accepts together with every node above them, in the tree's order.

@@ -63,10 +63,9 @@ struct MeshPart {
     [[nodiscard]] std::uint32_t triangles() const { return static_cast<std::uint32_t>(data.indices.size() / 3); }
 };
 
-/// What is measured: a mesh at some poses against a volume, and the camera of
-/// the projections that have one. Copies share the parts. What is on a device
-/// must end before the device: a session outlives the scenes made ready for it,
-/// or a DeviceStay ends before it.
+/// A measured scene: a mesh at poses against a volume, and the camera of projections that have one. Copies share the
+/// parts. Objects on a device must end before the device: the session outlives the scenes prepared for it, or a
+/// DeviceStay ends before it.
 struct Scene {
     std::shared_ptr<VolumePart> volume;
     std::shared_ptr<MeshPart> mesh;
@@ -79,8 +78,7 @@ struct Scene {
     [[nodiscard]] Scene withPoses(std::uint32_t count) const;
 };
 
-/// Of a scene that outlives the session it is made ready for: when the stay ends, by an exception too, nothing of the
-/// scene is on the device any more.
+/// For a scene that outlives its session: the end of the stay, even by an exception, removes the scene from the device.
 class DeviceStay {
   public:
     explicit DeviceStay(const Scene& scene) noexcept : volume_(*scene.volume), mesh_(*scene.mesh) {}

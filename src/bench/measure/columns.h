@@ -32,7 +32,7 @@ template <class Value> [[nodiscard]] io::Cell cellOf(const Value& value) {
 template <class Value> [[nodiscard]] io::Cell cellOf(const std::optional<Value>& value) {
     return value ? cellOf(*value) : io::Cell();
 }
-/// Of one thing: null where there are no samples.
+/// Returns the spread of samples; null without samples.
 [[nodiscard]] Json spreadJson(const std::vector<double>& samples);
 
 /// Name of a value in text and CSV, and in JSON; empty: omitted.
@@ -57,7 +57,7 @@ class Row {
     Row& add(const Names& names, const std::vector<double>& samples, std::initializer_list<const char*> parts);
     /// In columns alone.
     template <class Value> Row& column(const char* name, const Value& value) { return add({name, ""}, value); }
-    /// Those of another row, in columns alone.
+    /// Adds the columns of another row, without JSON members.
     Row& columns(const Row& others);
     /// In JSON alone.
     Row& member(const char* name, Json value);
@@ -96,7 +96,7 @@ template <class Things, class JsonOf> [[nodiscard]] Json arrayOf(const Things& t
 /// Results for all formats.
 struct Output {
     const Machine& machine;
-    /// Of JSON, between those that every output begins with, of the machine, and the notes, which it ends with.
+    /// Members of JSON, after the common ones and those of the machine, and before the notes.
     Json members;
     io::Table table{};                    ///< of CSV and text
     std::string about{};                  ///< a comment behind the table; may be empty

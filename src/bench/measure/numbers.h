@@ -44,7 +44,7 @@ inline void keep(const std::optional<double>& time, std::vector<double>& samples
     }
 }
 
-/// Of a whole, rounded(); nothing of 0, whose share is none.
+/// Returns the percentage of a whole, rounded(); empty if the whole is 0.
 [[nodiscard]] std::optional<double> percentOf(std::uint64_t part, std::uint64_t whole);
 
 /// Said where it makes agreement a small thing.

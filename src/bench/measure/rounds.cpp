@@ -12,7 +12,7 @@ bool isStopped(const Rounds& rounds) {
     return rounds.stop && rounds.stop();
 }
 
-/// Whether the sample was taken.
+/// Returns true if the sample was taken.
 Result<bool> takeTurn(Timed& thing, const Turn& turn) {
     const double next = turn.round > 1 ? thing.spent / static_cast<double>(turn.round - 1) : 0;
     thing.finished = thing.finished || thing.spent + next > thing.limit;
@@ -26,7 +26,7 @@ Result<bool> takeTurn(Timed& thing, const Turn& turn) {
     return true;
 }
 
-/// Whether any sample was taken.
+/// Returns true if any sample was taken.
 Result<bool> takeRound(std::span<Timed> things, const Rounds& rounds, std::uint64_t round) {
     const std::uint64_t again = rounds.cycle == 0 ? 0 : (round + rounds.cycle - 1) / rounds.cycle;
     const Turn turn{round, rounds.cycle > 0 && (round + again) % 2 == 0};

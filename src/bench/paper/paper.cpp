@@ -14,7 +14,7 @@ namespace voxtact::lab {
 
 namespace {
 
-/// Of the time, with sweeps.
+/// Share of the time for frames, with sweeps.
 constexpr double kFramesShare = 0.65;
 
 void addNotes(const PaperSettings& settings, PaperResult& result) {
@@ -37,7 +37,7 @@ void addNotes(const PaperSettings& settings, PaperResult& result) {
     }
 }
 
-/// Of the other sample of each round, or of what it adds, the share in rendering.
+/// Returns the other sample of each round, or its increase, as a percentage of rendering.
 std::vector<double> percents(const std::vector<double>& rendering, const std::vector<double>& other, bool added) {
     std::vector<double> out;
     for (std::size_t i = 0; rendering.size() == other.size() && i < other.size(); ++i) {
@@ -49,12 +49,12 @@ std::vector<double> percents(const std::vector<double>& rendering, const std::ve
     return out;
 }
 
-/// Of the sweep of voxels, and its voxels per side: half to twice as many are 128 to 512.
+/// Volume of the sweep of voxels, and its voxels per side: half to twice as many are 128 to 512.
 constexpr const char* kVolume = "builtin:head";
 constexpr std::uint32_t kVoxels = 256;
 constexpr std::array<ControlPoint, 2> kOpacity{{{40, 0}, {80, 1}}};
 constexpr ValueRange kSweepDomain{0, 255};
-/// Of those of the scene: a query a polygon takes its time.
+/// Number of the scene's poses: a query per polygon is slow.
 constexpr std::uint32_t kPolygonPoses = 4;
 /// Each gets the same share of the time: the four sweeps, the polygons, and the pre-integrated tables.
 constexpr double kParts = kSweeps.size() + 2.0;
@@ -189,10 +189,10 @@ std::uint64_t paperSweepSteps(const PaperSettings& settings) {
     return steps + poses * settings.repetitions + settings.repetitions + 1;
 }
 
-/// What grows from point to point, which triangles touch, and the making of the pre-integrated table. `v1s1` is the
-/// first scene, with the numbers of its poses; its mesh is the builtin scalpel. Fills `series`, `polygons`,
-/// `polygonTriangles`, `polygonPoses` and `integration` of `result`, and adds to its notes. Where methods disagree it
-/// fills `disagreement`, unless there is one already, and goes no further. The samples are cut to fit in `seconds`.
+/// Runs the sweeps, the measurement of touched triangles, and that of the pre-integrated table. `v1s1` is the first
+/// scene, with the numbers of its poses; its mesh is the builtin scalpel. Fills `series`, `polygons`,
+/// `polygonTriangles`, `polygonPoses` and `integration` of `result`, and adds to its notes. If methods disagree, it
+/// fills `disagreement`, unless already set, and stops. The samples are cut to fit in `seconds`.
 Result<void> runPaperSweeps(const PaperRun& run, double seconds, const Scene& v1s1) {
     const CompareSettings how{
         .repeats = run.settings.repetitions, .timeLimit = seconds / kParts, .load = run.settings.load};

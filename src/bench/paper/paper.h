@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <optional>
 
-/// What `voxtact bench --paper` finds: the measurements of the paper (Volume-Surface Collision Detection, Tables 1 and
-/// 2) made again.
+/// Results of `voxtact bench --paper`: the measurements of the paper (Volume-Surface Collision Detection, Tables 1 and
+/// 2), repeated.
 namespace voxtact::lab {
 
 /// The paper's own measurements, on its hardware (OpenGL), without viewport, ray step or number of samples.
@@ -25,8 +25,8 @@ struct TableLine {
     double total = 0;
     double overhead = 0; ///< percent: collision / rendering
 };
-/// As printed. Slips: the total of Table 1, v2s2 repeats the rendering (it should be 6.083), and the overhead of Table
-/// 2, v2s1 is 15.8 by its own columns.
+/// As printed, with errors: the total of Table 1, v2s2 repeats the rendering (it should be 6.083), and the overhead of
+/// Table 2, v2s1 is 15.8 by its own columns.
 inline constexpr std::array<TableLine, 8> kTables{{
     {1, "v1s1", 0.043, 5.793, 0.502, 5.835, 6.337, 8.6},
     {1, "v1s2", 0.356, 5.793, 0.789, 6.148, 6.937, 12.8},
@@ -46,8 +46,7 @@ inline constexpr double kPairsPerSecond = 3800;
 inline constexpr double kIntegrationMilliseconds = 40; ///< the pre-integrated table, 256x256
 } // namespace published
 
-/// What `voxtact bench --paper` measures. Unless told otherwise every pose is timed, and there are samples enough for
-/// an interval of 95 %.
+/// Settings of `voxtact bench --paper`. By default every pose is timed, with enough samples for an interval of 95 %.
 struct PaperSettings {
     std::uint32_t poses = 7; ///< of a scene
     std::uint64_t seed = 1;
@@ -138,7 +137,7 @@ struct PaperResult {
 [[nodiscard]] Result<void> measurePaper(const PaperSettings& settings, const device::Session& session,
                                         const Steps& steps, PaperResult& result);
 
-/// Of the intervals for medians, at least.
+/// Minimum confidence of the intervals of medians.
 inline constexpr double kConfidence = 0.95;
 
 /// Formats the median overhead of detection, percent: "2.6", or "noise" if it is below 0, and its interval, if there

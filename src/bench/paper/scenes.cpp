@@ -51,7 +51,7 @@ constexpr std::array<PaperMesh, 2> kMeshes{{{"s1", nullptr, 3068, "builtin:scalp
 
 /// Random poses that are tried for one that touches.
 constexpr std::uint32_t kTries = 64;
-/// Of the side of a volume: how far beyond it randomPoses() puts a vertex, and a little.
+/// Maximum distance of a vertex of randomPoses() beyond the volume, relative to its side, plus a margin.
 constexpr double kBeyond = 0.11;
 
 /// Source of a volume or mesh of the paper.
@@ -82,7 +82,7 @@ Result<void> checkData(const PaperSettings& settings) {
 
 using Histogram = std::array<std::uint64_t, 256>;
 
-/// Of all voxels, those that are opaque.
+/// Returns the share of opaque voxels.
 double opaqueShare(const Histogram& histogram, std::span<const ControlPoint> points) {
     const OpaqueIntervals intervals(points, kDefaultThreshold);
     std::uint64_t opaque = 0;
@@ -160,7 +160,7 @@ Result<View> cameraOf(const PaperSettings& settings, const Grid& grid, const Mes
                 settings.size.height};
 }
 
-/// Of a scene whose parts are loaded; `share` of the voxels are opaque.
+/// Creates the input of a scene with loaded parts; `share` of the voxels are opaque.
 Result<PaperInput> makeInput(const PaperSettings& settings, std::string name, double share, Scene scene) {
     const VolumePart& volume = *scene.volume;
     VOXTACT_TRY(put(cameraOf(settings, volume.data.grid, scene.mesh->data), scene.view));

@@ -103,7 +103,7 @@ class Row {
         return (first == 0 || !rises(first)) && (end >= last || rises(end));
     }
 
-    /// Wherever the guess was.
+    /// For any guess.
     [[nodiscard]] Span searched() const {
         const std::uint32_t size = grid_.size[0];
         const std::uint32_t rising = leastThat(0, size, [this](std::uint32_t x) { return rises(x); });

@@ -119,7 +119,7 @@ bool split(const UvPolygon& polygon, const Heights& heights, double slack, UvPol
     above.count = 0;
     for (std::uint32_t i = 0; i < polygon.count; ++i) {
         const std::uint32_t next = polygon.after(i);
-        // Of consecutive corners on the line, the lower part keeps the last or the first.
+        // The lower part keeps the last or the first of consecutive corners on the line.
         const bool ends = sides[i] == 0 && (sides[next] < 0 || sides[polygon.before(i)] < 0);
         if (sides[i] >= 0) {
             add(above, polygon.corners[i]);

@@ -298,7 +298,7 @@ bool BoxMeasure::mayBeOpaqueBehind(const Values& values) const {
                                    std::min(values.middle + greatest + beside, values.hi));
 }
 
-/// Of a box with one end of an opaque interval in its range of values, which are on either side of a surface.
+/// Measures a box with one end of an opaque interval in its range of values, on either side of a surface.
 std::optional<BoxVolume> BoxMeasure::behindGraph(const CellPartBox& box, const Values& values) const {
     const OpaqueIntervals::Some some = part_.intervals.between(values.lo, values.hi);
     if (!some.known || some.outer.size() != 1 || some.inner.size() != 1) {

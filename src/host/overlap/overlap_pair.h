@@ -46,7 +46,7 @@ struct OverlapMemory {
     PairSurface& surface;
 };
 
-/// The same on every processor.
+/// Measures a pair, with the same result on every processor.
 [[nodiscard]] PairMeasures measurePair(const Overlap& question, const OverlapItem& made, const BatchItem& item,
                                        const Mat4& world_from_object, const OverlapMemory& memory, CancelFlag cancel);
 

@@ -14,7 +14,7 @@ namespace {
 
 using glm::dvec3;
 
-/// Of a record's key: the place in a row, as kMaxSide is 2^23. The row's number is above.
+/// Bits of a record's key for the place in a row, because kMaxSide is 2^23. Higher bits are the row's number.
 constexpr unsigned kRowShift = 24;
 
 /// Relative to the largest coordinate: a corner that was cut a hundred times.

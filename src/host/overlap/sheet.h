@@ -26,7 +26,7 @@ struct Sheet {
     [[nodiscard]] bool empty() const noexcept { return count < 3; }
     /// Signed, by y and z.
     [[nodiscard]] double area() const noexcept;
-    /// Of the signed space between it and a plane across x.
+    /// Returns the signed volume between the sheet and a plane across x.
     [[nodiscard]] double volumeTo(double x) const noexcept;
     void range(int axis, double& lo, double& hi) const noexcept;
     /// Moves parts before a plane across x onto it.

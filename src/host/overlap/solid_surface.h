@@ -30,7 +30,7 @@ struct SolidPiece {
 struct SolidSurface {
     explicit SolidSurface(const MeshImpl& mesh);
 
-    /// Of a triangle with kInPieces.
+    /// Returns the pieces of a triangle with kInPieces.
     [[nodiscard]] std::span<const SolidPiece> piecesOf(std::uint32_t place) const noexcept;
 
     SolidFacts facts;               ///< holes only

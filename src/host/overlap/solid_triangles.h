@@ -52,7 +52,7 @@ class SolidTriangles {
     /// Increase of the winding number from front to back. 0: ignored, or padding.
     [[nodiscard]] int weight(std::size_t place) const noexcept { return weights_[place]; }
     [[nodiscard]] SolidBox box(std::size_t place) const noexcept;
-    /// Of all triangles, three each.
+    /// Returns the vertices of all triangles, three each.
     [[nodiscard]] std::vector<std::uint32_t> indices() const;
     /// Calls `visit(place)` for triangles with a weight in runs whose boxes `keep(SolidBox)` keeps, until it returns
     /// false.

@@ -30,7 +30,7 @@ struct SearchPair {
     [[nodiscard]] PiecePlace place() const noexcept { return {node, depth, piece}; }
     [[nodiscard]] bool isLeaf() const noexcept { return meshLevel == kTriangles && shift == 0; }
     [[nodiscard]] int size() const noexcept { return meshLevel + shift - depth; }
-    /// Of equally near pairs, prefers smaller ones, to find a point early.
+    /// Prefers the smaller of equally near pairs, to find a point early.
     [[nodiscard]] bool isAfter(const SearchPair& other) const noexcept {
         return lo != other.lo ? lo > other.lo : size() > other.size();
     }

@@ -49,7 +49,7 @@ class DicomStream {
 
   private:
     DicomStream(std::ifstream file, std::uint64_t size);
-    /// Of the file's bytes.
+    /// Takes bytes of the file.
     std::size_t take(char* to, std::size_t count);
     /// Appends to the window; false at the end of the file, or where its compressed data is damaged.
     bool fill();

@@ -41,7 +41,7 @@ std::uint64_t trianglesOf(Mode mode, std::uint64_t corners) {
     return mode == Mode::Triangles ? corners / 3 : corners < 3 ? 0 : corners - 2;
 }
 
-/// As the specification numbers them.
+/// Numbers of the specification.
 std::array<std::uint64_t, 3> cornersOf(Mode mode, std::uint64_t triangle) {
     if (mode == Mode::Triangles) {
         return {3 * triangle, 3 * triangle + 1, 3 * triangle + 2};

@@ -16,7 +16,7 @@ Mat4 translationAndScale(const std::vector<double>& translation, const std::vect
     return matrix;
 }
 
-/// Of a unit quaternion x, y, z, w.
+/// Returns the rotation of a unit quaternion x, y, z, w.
 Mat4 rotation(const std::vector<double>& quaternion, const std::string& node) {
     const double length =
         std::hypot(std::hypot(quaternion[0], quaternion[1]), std::hypot(quaternion[2], quaternion[3]));

@@ -18,7 +18,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Of a point with opacity in ParaView: value, opacity, midpoint, sharpness. Of a colour: value, red, green, blue.
+/// Numbers of a point in ParaView: with opacity, they are value, opacity, midpoint, sharpness; with colour, value, red,
+/// green, blue.
 constexpr std::size_t kFour = 4;
 
 std::vector<ColourPoint> coloursOf(const std::vector<double>& numbers) {

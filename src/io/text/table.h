@@ -49,7 +49,7 @@ struct TableEnd {
     NamedCells cells{};
 };
 
-/// The same rows for every format.
+/// Rows for every format.
 struct Table {
     std::vector<std::string> columns;
     std::size_t rows = 0;

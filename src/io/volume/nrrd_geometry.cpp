@@ -169,7 +169,7 @@ Result<AffineSteps> spaceSteps(const fs::path& path, const NrrdHeader& header, c
     return affine;
 }
 
-/// Of each axis whether it begins and ends with the centre of a voxel ("node"), or with a border of it.
+/// For each axis: true if it begins and ends at voxel centres ("node"), false if at voxel borders.
 struct Centerings {
     std::array<bool, 3> node{};
     bool isSaid = true; ///< else a border is taken

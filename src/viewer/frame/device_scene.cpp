@@ -36,7 +36,7 @@ double diagonalOf(const Grid& grid) {
 
 Result<DeviceMesh> DeviceMesh::create(const device::Session& session, const Renderer& renderer, const MeshData& data) {
     const QueueAccess queue = session.device.queueAccess();
-    // The same triangles in the same order, with sharp edges.
+    // Returns the same triangles in the same order, with sharp edges.
     const Result<MeshData> creased = splitAtCreases(data.view());
     VOXTACT_TRY(creased);
     DeviceMesh out;

@@ -53,7 +53,7 @@ struct Edit {
     [[nodiscard]] const Mat4& pose() const { return instruments[chosen].world_from_object; }
     [[nodiscard]] Mat4& pose() { return instruments[chosen].world_from_object; }
 
-    /// Whatever is chosen.
+    /// Compares edits, but not the chosen instrument.
     [[nodiscard]] bool operator==(const Edit& other) const {
         return threshold == other.threshold && holes == other.holes && instruments == other.instruments &&
                sameCurve(curve, other.curve) && sameColours(colours, other.colours);
