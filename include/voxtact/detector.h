@@ -52,154 +52,144 @@ using DetectorDesc = std::variant<CertifiedDesc, RasterDesc>;
 
 /// One mesh at some poses against one volume under one transfer function.
 struct BatchItem {
-    const Mesh* mesh = nullptr;     ///< must be given, as all but the labels; outlives the command buffer
-    const Volume* volume = nullptr; ///< what is touched
-    const TransferFunction* transferFunction = nullptr; ///< what of it is opaque
-    std::span<const Mat4> world_from_object{};          ///< a pose a pair; affine. Read while recording only
-    /// For the outputs contacts (optional) and labels.
-    const LabelMap* labels = nullptr;
-    /// Poses on the device, instead of world_from_object, which is then empty; for detectors with devicePoses. A pose
-    /// that is not finite, or whose last row is not 0 0 0 1, is not examined: its count is 0, its exactness Refused,
-    /// and by the projection `certified` it is *possible*.
+    const Mesh* mesh = nullptr;                         ///< required; outlives the command buffer, like all objects
+    const Volume* volume = nullptr;                     ///< required
+    const TransferFunction* transferFunction = nullptr; ///< required: opacity of the volume's values
+    std::span<const Mat4> world_from_object{};          ///< one affine pose per pair; read during recording only
+    const LabelMap* labels = nullptr;                   ///< for the outputs contacts (optional) and labels
+    /// Poses on the device instead of world_from_object; needs a detector with devicePoses. A pose that is not finite,
+    /// or whose last row is not 0 0 0 1, has the count 0 and the exactness Refused, and is undecided if certified.
     const PoseBuffer* poses = nullptr;
-    std::optional<std::uint32_t> poseCount = std::nullopt; ///< number of poses, from the first; nothing: all
+    std::optional<std::uint32_t> poseCount = std::nullopt; ///< number of `poses`, from the first; empty: all
 
-    /// How many pairs it is.
+    /// Returns the number of pairs.
     [[nodiscard]] VOXTACT_API std::size_t pairs() const noexcept;
 };
 
 /// The pairs of one submission: the items in order, each with its poses in order.
 struct Batch {
-    std::span<const BatchItem> items{};   ///< any number; results are in their order
-    View view{};                          ///< not examined by projections without a camera
+    std::span<const BatchItem> items{};   ///< any number; results have their order
+    View view{};                          ///< ignored by projections without a camera
     double threshold = kDefaultThreshold; ///< 0..1
 };
 
-/// Contacts that a list has room for, where nothing else is asked for.
+/// Default capacity of the list of contacts.
 inline constexpr std::uint32_t kDefaultContactRoom = 1U << 16U;
 
-/// Capacity for the outputs of a detector, over all pairs of a batch. Ignored for outputs that it does not have; at
-/// least 1 for those that it has. The bounds have a capacity of maxPairs.
+/// Capacity for the outputs of a detector, over all pairs of a batch: at least 1 for its outputs, ignored for others.
+/// The bounds have a capacity of maxPairs.
 struct OutputRoom {
-    std::uint64_t triangles = 0; ///< for the output triangles: the sum over the pairs of those of their meshes
-    std::uint64_t labels = 0;    ///< for the output labels: the sum over the pairs of those of their label maps
-    std::uint32_t contacts = kDefaultContactRoom; ///< for the output contacts; a longer list is cut
+    std::uint64_t triangles = 0;                  ///< sum of the triangles of the pairs' meshes
+    std::uint64_t labels = 0;                     ///< sum of the labels of the pairs' label maps
+    std::uint32_t contacts = kDefaultContactRoom; ///< a longer list is cut
 };
 
-/// A part of a device buffer: where a descriptor of it begins, and how many bytes it has. The buffer is null where
-/// there is nothing.
+/// A range of a device buffer.
 struct BufferRange {
-    VkBuffer buffer = VK_NULL_HANDLE; ///< null: there is nothing
+    VkBuffer buffer = VK_NULL_HANDLE; ///< null: no range
     VkDeviceSize offset = 0;          ///< bytes
     VkDeviceSize size = 0;            ///< bytes
 };
 
-/// How large Results are, and what they keep. Fixed for their life.
+/// Capacity and options of Results, fixed for their life.
 struct ResultsDesc {
-    std::uint32_t maxPairs = 1; ///< pairs of the largest batch
-    bool readBack = true;       ///< a host-visible copy is kept, for cmdReadBack() and read()
-    bool timestamps = false;    ///< cmdDetect() writes a timestamp before and after its work, read by gpuMilliseconds()
-    std::uint32_t queueFamily = 0; ///< with timestamps: of the queue that will execute; refused where it has none
+    std::uint32_t maxPairs = 1;    ///< pairs of the largest batch
+    bool readBack = true;          ///< keeps a host-visible copy for cmdReadBack() and read()
+    bool timestamps = false;       ///< cmdDetect() writes timestamps around its work, for gpuMilliseconds()
+    std::uint32_t queueFamily = 0; ///< with timestamps: family of the executing queue; refused if it has none
     OutputRoom room{};             ///< capacity for the detector's outputs
     /// Certified detectors: maximum clusters of 64 triangles, once per pair, in a dispatch; 16 to 262144. A larger
-    /// batch takes more dispatches. A dispatch tests at most 2^16 bricks and cells of large triangles per cluster, and
-    /// 3.5e9 in total; but it never cuts a cluster of one pair, and of a mesh of which the host knows no vertex
-    /// (wrapped, or after Mesh::cmdCopy()) only the clusters are bounded. If such a mesh has more huge triangles than
-    /// the device's own bound allows (docs/engine.md, What bounds a dispatch), the rest of them is left undecided: the
-    /// answer is then possible. No other answer depends on it. Choose it so that the driver does not take the GPU for
-    /// stuck; each cluster takes 721 bytes of device memory. 0: by maxPairs, 2048 to 16384, or more if the device's
-    /// maxComputeWorkGroupCount allows it and the queues take at most a 128th of its memory. In any case fewer where
-    /// its maxComputeWorkGroupCount (16384 for each 65535 along x) or maxStorageBufferRange has no room for them.
+    /// batch takes more dispatches. Each cluster takes 721 bytes of device memory. 0: 2048 to 16384 by maxPairs; more
+    /// if maxComputeWorkGroupCount allows it and the queues take at most a 128th of the memory. Limited by
+    /// maxComputeWorkGroupCount (16384 per 65535 along x) and maxStorageBufferRange. Reduce it if the driver resets the
+    /// GPU during long dispatches.
+    ///
+    /// A dispatch tests at most 2^16 bricks and cells of large triangles per cluster, and 3.5e9 in total, but never
+    /// divides a cluster of one pair. If the host does not know the vertices (wrapped mesh, Mesh::cmdCopy()), only the
+    /// number of clusters is bounded. Huge triangles of such a mesh beyond the device's own bound are undecided
+    /// (docs/engine.md, Dispatch size limits). No other answer depends on this number.
     std::uint32_t clustersAtOnce = 0;
-    /// What the host makes of poses goes through mapped memory of the Results, 248 bytes per pair, instead of the
-    /// command buffer. Recording a batch of thousands of pairs then takes a fraction of the time with drivers that are
-    /// slow to write into command buffers, as NVIDIA's is; by a detector with devicePoses it is the poses themselves,
-    /// which is several times faster still. In exchange a batch may be recorded only when the submission of the one
-    /// before it has completed, which is then not submitted again; a ring has Results for each frame in flight. Poses
-    /// on the device need none of it.
+    /// Passes the host's poses through mapped memory of the Results, 248 bytes per pair, instead of the command buffer.
+    /// Recording thousands of pairs is then much faster if the driver is slow to write command buffers (NVIDIA's), and
+    /// faster still with devicePoses. In exchange, record a batch only when the submission of the previous one has
+    /// completed, and do not submit that one again. A ring has Results for each frame in flight. Irrelevant for poses
+    /// on the device.
     bool staged = false;
-    /// Where the PairResults go: a part of a buffer of the caller's, of at least maxPairs * sizeof(PairResult) bytes,
-    /// with the usage STORAGE_BUFFER | TRANSFER_SRC | TRANSFER_DST. The offset is a multiple of 8 and of the device's
-    /// minStorageBufferOffsetAlignment. It outlives the Results and what was recorded with them; what else lies in the
-    /// buffer is left alone. A ring needs such a part for each frame, from one to the next resultBytes(). Null: the
-    /// Results have a buffer of their own.
+    /// Caller's range for the PairResults, at least maxPairs * sizeof(PairResult) bytes of a buffer with the usage
+    /// STORAGE_BUFFER | TRANSFER_SRC | TRANSFER_DST. The offset is a multiple of 8 and of
+    /// minStorageBufferOffsetAlignment. The buffer outlives the Results and the commands recorded with them; the rest
+    /// of the buffer is not touched. A ring needs resultBytes() per frame. Null: the Results have their own buffer.
     BufferRange into{};
 };
 
-/// From the PairResults of one frame of a ring to those of the next, where ResultsDesc::into is given: those of so many
-/// pairs, rounded up to 256 bytes, which every device takes for the offset of a descriptor.
+/// Returns the bytes from the PairResults of one frame of a ring to those of the next, for ResultsDesc::into: a
+/// multiple of 256, a valid descriptor offset on every device.
 [[nodiscard]] constexpr VkDeviceSize resultBytes(std::uint32_t maxPairs) noexcept {
     constexpr VkDeviceSize kAlignment = 256;
     return (VkDeviceSize{maxPairs} * sizeof(PairResult) + kAlignment - 1) / kAlignment * kAlignment;
 }
 
-/// Where the answers of one batch in flight go: a device buffer of PairResult, and what counting needs in addition to
-/// it. One batch at a time. A second cmdDetect() in the same queue waits for the first one and replaces its answers; in
-/// another queue it must not run before the first one has completed, which a semaphore or a fence of yours ensures.
-/// With ResultsDesc::staged it must not even be recorded before: its poses replace the first one's.
+/// Answers of one batch in flight: a device buffer of PairResult, and working memory. A second cmdDetect() on the same
+/// queue waits for the first one and replaces its answers. On another queue, a semaphore or fence of yours must order
+/// them. With ResultsDesc::staged, record the second one after the first one has completed.
 /// Thread-safety: none; one thread at a time.
 class Results {
   public:
-    /// Allocates the buffers for batches of a detector, or of others of its Context: both certified or both not, and
-    /// without outputs that it lacks. Refuses zero pairs, more pairs than the device's limits allow, including the
-    /// queues of a certified detector (LimitExceeded: which limit, how large), a capacity of 0 for an output of the
-    /// detector, timestamps on a queue family that has none, and an `into` that is too small or begins where no
-    /// descriptor may.
+    /// Allocates the buffers for batches of a detector. Other detectors of its Context may use them, too, if both are
+    /// certified or both are not, and it has their outputs. Refuses zero pairs, more pairs than the device's limits
+    /// allow (LimitExceeded, with the limit), a capacity of 0 for an output of the detector, timestamps on a queue
+    /// family without them, and an `into` that is too small or misaligned.
     [[nodiscard]] VOXTACT_API static Result<Results> create(const Detector& detector, const ResultsDesc& desc);
     VOXTACT_API Results(Results&&) noexcept;
     VOXTACT_API Results& operator=(Results&&) noexcept;
     VOXTACT_API ~Results();
 
-    /// Pairs that there is room for.
+    /// Returns the capacity in pairs.
     [[nodiscard]] VOXTACT_API std::uint32_t maxPairs() const noexcept;
-    /// Pairs of the batch recorded last.
+    /// Returns the number of pairs of the last recorded batch.
     [[nodiscard]] VOXTACT_API std::uint32_t pairs() const noexcept;
-    /// maxPairs PairResults, for the next pass on the device: ResultsDesc::into, or all of a buffer with the usage
-    /// STORAGE_BUFFER | TRANSFER_SRC | TRANSFER_DST.
+    /// Returns the range of maxPairs PairResults, for the next pass: ResultsDesc::into, or a whole buffer with the
+    /// usage STORAGE_BUFFER | TRANSFER_SRC | TRANSFER_DST.
     [[nodiscard]] VOXTACT_API BufferRange pairResults() const noexcept;
-    /// The buffer of pairResults(), which begin at its offset.
+    /// Returns the buffer of pairResults().
     [[nodiscard]] VOXTACT_API VkBuffer buffer() const noexcept;
 
-    /// The outputs in addition to the counts on the device, for the next pass: what the detector of the batch recorded
-    /// last was made for; the other parts hold nothing of use. All are of one buffer with the usage STORAGE_BUFFER |
-    /// TRANSFER_SRC | TRANSFER_DST, ready for readers when pairResults() are, and each is as large as there was room
-    /// for. Offsets are multiples of 256. Pairs follow each other in their order.
+    /// The following functions return the ranges of the outputs, for the next pass. Ranges of outputs that the detector
+    /// of the last recorded batch lacks hold nothing useful. All are in one buffer with the usage STORAGE_BUFFER |
+    /// TRANSFER_SRC | TRANSFER_DST, are visible to readers when pairResults() are, and have the size of their capacity.
+    /// Offsets are multiples of 256. Pairs follow each other in order.
     ///
-    /// triangleCounts(): a uint for each triangle of each pair, its survivors. Those of a pair begin after as many as
-    /// the pairs before it have triangles.
+    /// Returns one uint per triangle of each pair: its passing fragments.
     [[nodiscard]] VOXTACT_API BufferRange triangleCounts() const noexcept;
-    /// A bit for each triangle of each pair, in uints, lowest first: whether it has survivors. Each pair begins with a
-    /// uint of its own.
+    /// Returns one bit per triangle of each pair, lowest bit first: 1 if it has passing fragments. Each pair begins
+    /// with a new uint.
     [[nodiscard]] VOXTACT_API BufferRange triangleMask() const noexcept;
-    /// Four uints: contacts that were found, low and high word; the room; 0. Then the list, of ContactResult in
-    /// device_results.h: as many as were found, or as there is room for.
+    /// Returns four uints (number of contacts, low and high word; capacity; 0), then the list of ContactResult
+    /// (device_results.h), up to the capacity.
     [[nodiscard]] VOXTACT_API BufferRange contacts() const noexcept;
-    /// Six uints for each pair; all 0 where it has no survivor. Decoded by uintBitsToFloat(VOXTACT_BOUND_BITS(word)),
-    /// of device_results.h, they are -lo.x, -lo.y, -lo.z, hi.x, hi.y and hi.z of its box; world, mm.
+    /// Returns six uints per pair; all 0 without a passing fragment. uintBitsToFloat(VOXTACT_BOUND_BITS(word)) of
+    /// device_results.h decodes -lo.x, -lo.y, -lo.z, hi.x, hi.y and hi.z of the box, world mm.
     [[nodiscard]] VOXTACT_API BufferRange bounds() const noexcept;
-    /// A uint for each label of the label map of each pair, by number: its survivors, modulo 2^32. Those of a pair
-    /// begin after as many as the pairs before it have labels.
+    /// Returns one uint per label of each pair's label map, by index: its passing fragments, modulo 2^32.
     [[nodiscard]] VOXTACT_API BufferRange labelCounts() const noexcept;
 
-    /// Records a copy of the results to host memory, the outputs among them. Call it after cmdDetect(), outside a
-    /// render pass.
+    /// Records a copy of the results and outputs to host memory. Call it after cmdDetect(), outside a render pass.
     ///   expects  the results as cmdDetect() leaves them
     ///   leaves   the host copy readable once the submission is complete
     ///   queries  not affected; bound state: none is lost
     VOXTACT_API Result<void> cmdReadBack(VkCommandBuffer commandBuffer);
-    /// The host copy, of a submission that the caller knows to be complete; NotReady where it can be seen not to be.
-    /// Valid until the next cmdReadBack() executes, or the Results end.
+    /// Returns the host copy of a completed submission; NotReady if the copy was seen not to have executed. Valid until
+    /// the next cmdReadBack() executes, or the Results end.
     [[nodiscard]] VOXTACT_API Result<std::span<const PairResult>> read();
-    /// Unpacks the host copy of the outputs of the batch recorded last: everything of a BatchAnswer but its pairs and
-    /// times. What its detector was not made for is left empty. The same is expected as by read().
+    /// Unpacks the outputs of the last recorded batch: all of a BatchAnswer except its pairs and times. Outputs that
+    /// the detector lacks are empty. Expects what read() expects.
     [[nodiscard]] VOXTACT_API Result<void> readOutputs(BatchAnswer& answer);
-    /// Whether the batch recorded last is of a detector with CertifiedDesc::counters.
+    /// Returns true if the detector of the last recorded batch has CertifiedDesc::counters.
     [[nodiscard]] VOXTACT_API bool counted() const noexcept;
-    /// What the passes did, of a detector with CertifiedDesc::counters. The same is expected as by read(); NotReady
-    /// where they are not counted().
+    /// Returns the counters of the certified passes. Expects what read() expects; NotReady unless counted().
     [[nodiscard]] VOXTACT_API Result<CertifiedCounters> counters();
-    /// Device time between the start and the end of cmdDetect()'s commands, when `timestamps` was asked for and the
-    /// submission is complete; 0 where the clock went backwards. NotReady otherwise.
+    /// Returns the device time of cmdDetect()'s commands after a completed submission, with `timestamps`; else
+    /// NotReady. 0 if the clock ran backwards.
     [[nodiscard]] VOXTACT_API Result<double> gpuMilliseconds();
 
     [[nodiscard]] ResultsImpl& impl() const noexcept { return *impl_; }
@@ -209,29 +199,27 @@ class Results {
     std::unique_ptr<ResultsImpl> impl_;
 };
 
-/// Results for frames in flight: frame n uses slot n modulo the number of frames, so that frame n is recorded while
-/// the ones before it are still on the device, and read when the caller knows that it has completed. Nothing waits.
+/// Results for frames in flight: frame n uses slot n modulo frames(). Record frame n while earlier frames execute, and
+/// read it once it has completed. No function waits.
 /// Thread-safety: none; one thread at a time.
 class ResultRing {
   public:
-    /// `frames`: how many may be in flight, 1 to 4096. Otherwise refuses what Results::create() refuses. With
-    /// ResultsDesc::into, the results of `frame` begin resultBytes(maxPairs) * (frame modulo frames) after its offset.
+    /// Creates `frames` slots, 1 to 4096. Refuses what Results::create() refuses. With ResultsDesc::into, the results
+    /// of a frame begin resultBytes(maxPairs) * (frame modulo frames) after its offset.
     [[nodiscard]] VOXTACT_API static Result<ResultRing> create(const Detector& detector, std::uint32_t frames,
                                                                const ResultsDesc& desc);
 
-    /// Slots, one for each frame in flight.
+    /// Returns the number of slots.
     [[nodiscard]] std::uint32_t frames() const noexcept { return static_cast<std::uint32_t>(slots_.size()); }
-    /// Claims the slot of `frame` for recording; nothing can be read of it until a detection and its read-back are
-    /// recorded. The caller knows that frame `frame - frames()` has completed. Frames ascend; claiming one that is
-    /// older than its slot's is refused.
+    /// Claims the slot of `frame` for recording. Expects that frame `frame - frames()` has completed. The slot is
+    /// readable after a recorded detection and read-back. Frames ascend; refuses a frame older than its slot's.
     [[nodiscard]] VOXTACT_API Result<Results*> begin(std::uint64_t frame);
-    /// The slot of a completed frame, to read whatever its Results have: counters, times. NotReady when it
-    /// was never used, or has been taken by a later frame. Lives as long as the ring does, and is the next frame's from
-    /// the begin() of that on.
+    /// Returns the slot of a completed frame, for its counters and times. NotReady if a later frame has claimed the
+    /// slot, or no frame has. Valid until the ring ends; belongs to the next frame from its begin() on.
     [[nodiscard]] VOXTACT_API Result<Results*> results(std::uint64_t frame);
-    /// Results::read() of the slot of a completed frame.
+    /// Calls Results::read() of the slot of a completed frame.
     [[nodiscard]] VOXTACT_API Result<std::span<const PairResult>> read(std::uint64_t frame);
-    /// The same for Results::readOutputs().
+    /// Calls Results::readOutputs() of the slot of a completed frame.
     [[nodiscard]] VOXTACT_API Result<void> readOutputs(std::uint64_t frame, BatchAnswer& answer);
 
   private:
@@ -243,27 +231,25 @@ class ResultRing {
     std::vector<Slot> slots_;
 };
 
-/// Decides which pairs collide. See the manual, "The method".
-/// Thread-safety: cmdDetect is const and safe from any thread with different command buffers and Results.
+/// Decides which pairs collide. Thread-safety: cmdDetect() is safe from any thread with different command buffers and
+/// Results.
 class Detector {
   public:
-    /// Unsupported, with the missing feature or limit named, if the device cannot run it. The outputs need five bound
-    /// descriptor sets (maxBoundDescriptorSets).
+    /// Creates a certified detector. Unsupported, with the missing feature or limit, if the device cannot run it. The
+    /// outputs need five bound descriptor sets (maxBoundDescriptorSets).
     [[nodiscard]] VOXTACT_API static Result<Detector> certified(const Context& context, const CertifiedDesc& desc = {});
-    /// Like certified(). With the methods of the rasteriser the outputs also need fragmentStoresAndAtomics and
-    /// geometryShader.
+    /// Creates a detector that counts fragments. Unsupported like certified(). With a rasterising method, the outputs
+    /// also need fragmentStoresAndAtomics and geometryShader.
     [[nodiscard]] VOXTACT_API static Result<Detector> raster(const Context& context, const RasterDesc& desc);
-    /// certified() or raster(), by the alternative.
+    /// Calls certified() or raster().
     [[nodiscard]] VOXTACT_API static Result<Detector> create(const Context& context, const DetectorDesc& desc);
     VOXTACT_API Detector(Detector&&) noexcept;
     VOXTACT_API Detector& operator=(Detector&&) noexcept;
     VOXTACT_API ~Detector();
 
-    /// Records the detection of a batch: no allocation of device memory, no submission, no wait, no map. The poses
-    /// are recorded into the command buffer, so it may be submitted again without its Results being overwritten by
-    /// the host in between; with ResultsDesc::staged they are in the Results, and it may not. Those of a PoseBuffer are
-    /// read when it executes: recorded once, it may be submitted again and again, each time for the poses that are
-    /// there then.
+    /// Records the detection of a batch. Allocates no device memory, submits nothing, waits for nothing, maps nothing.
+    /// The command buffer contains the poses and may be submitted again, except with ResultsDesc::staged. A PoseBuffer
+    /// is read at execution: each submission uses its current poses.
     ///
     ///   call it          outside a render pass, in a primary command buffer, on a queue with graphics, or, for
     ///                    the method compute, on one with compute, with or without graphics
@@ -282,16 +268,14 @@ class Detector {
     ///                    pipeline, descriptor sets 0..3 of the compute bind point (0..4 with outputs), push
     ///                    constants
     ///
-    /// Refuses Results of a detector that is not certified like this one, or lacks one of its outputs. With outputs,
-    /// batches are refused that the Results have no room for (the list of contacts is cut instead), and with the output
-    /// labels, items without a label map. The Results keep what readOutputs() needs of the batch.
-    ///
-    /// On error nothing useful was recorded, and the command buffer must not be submitted.
+    /// Refuses Results whose detector is not of the same kind or lacks an output, batches beyond the capacity of the
+    /// Results (except the list of contacts, which is cut), and, with the output labels, items without a label map.
+    /// After an error, do not submit the command buffer.
     VOXTACT_API Result<void> cmdDetect(VkCommandBuffer commandBuffer, const Batch& batch, Results& results) const;
 
-    /// Returns the options that it was made with.
+    /// Returns its options.
     [[nodiscard]] VOXTACT_API const DetectorDesc& desc() const noexcept;
-    /// Which variant Boundary::Auto takes for an item at a threshold: Range or Clamp.
+    /// Returns the variant that Boundary::Auto selects for an item at a threshold: Range or Clamp.
     [[nodiscard]] VOXTACT_API Boundary boundaryFor(const BatchItem& item, double threshold) const noexcept;
 
     [[nodiscard]] DetectorImpl& impl() const noexcept { return *impl_; }
@@ -303,25 +287,25 @@ class Detector {
     std::unique_ptr<DetectorImpl> impl_;
 };
 
-/// The blocking convenience: records a batch, submits it on the caller's queue, waits, and reads the answers. Keeps
-/// its command buffer, fence and Results for the next call and makes larger ones when a batch needs them. On a GPU that
-/// has doubles, a method that computes makes the pairs of 256 poses of the host or more on the device, as with
-/// CertifiedDesc::devicePoses. Thread-safety: none; one thread at a time.
+/// Records a batch, submits it on the caller's queue, waits, and reads the answers. Keeps its command buffer, fence and
+/// Results for the next call, and replaces them by larger ones when needed. On a GPU with doubles, a computing method
+/// makes the pairs of 256 host poses or more on the device, as with CertifiedDesc::devicePoses. Thread-safety: none;
+/// one thread at a time.
 class BlockingDetector {
   public:
-    /// The queue's family must be able to draw, or, for the method compute, to compute. A CertifiedDesc or RasterDesc
-    /// converts. A list of contacts is cut beyond `mostContacts`.
+    /// Creates one for a queue with graphics or, for the method compute, with compute. A list of contacts is cut beyond
+    /// `maxContacts`.
     [[nodiscard]] VOXTACT_API static Result<BlockingDetector> create(const Context& context, const DetectorDesc& desc,
                                                                      const QueueAccess& queue,
-                                                                     std::uint32_t mostContacts = kDefaultContactRoom);
+                                                                     std::uint32_t maxContacts = kDefaultContactRoom);
     VOXTACT_API BlockingDetector(BlockingDetector&&) noexcept;
     VOXTACT_API BlockingDetector& operator=(BlockingDetector&&) noexcept;
     VOXTACT_API ~BlockingDetector();
 
-    /// Answers for every pair of the batch. Blocks. Refuses what Detector::cmdDetect() refuses. After an error nothing
-    /// of the failed batch is in flight, and the next call works, unless the device is lost.
+    /// Returns the answers for every pair of the batch. Blocks. Refuses what Detector::cmdDetect() refuses. After an
+    /// error, nothing of the batch is in flight, and the next call works unless the device is lost.
     [[nodiscard]] VOXTACT_API Result<BatchAnswer> detect(const Batch& batch);
-    /// The detector that records; it lives as long as this object.
+    /// Returns the recording detector, valid as long as this object.
     [[nodiscard]] VOXTACT_API const Detector& detector() const noexcept;
 
   private:
@@ -330,20 +314,19 @@ class BlockingDetector {
     std::unique_ptr<State> state_;
 };
 
-/// What selfTest() found for one counting method.
+/// Verdict of selfTest() on one counting method.
 struct SelfTestVerdict {
-    CountingMethod method;  ///< which
-    bool available = false; ///< whether the device can do it
-    bool trusted = false;   ///< available, and every count was as it must be
-    std::string text;       ///< what was counted and compared, or what is wrong
+    CountingMethod method;  ///< the method
+    bool available = false; ///< true if the device supports it
+    bool trusted = false;   ///< true if available, and every count was right
+    std::string text;       ///< the comparisons, or the failure
 };
 
-/// Renders a known number of fragments by each of `methods` (empty: all that the Context knows) on this driver: a full
-/// viewport in an opaque volume, in a transparent one, and in a half-opaque one. Where the method's default filter is
-/// Exact, also does each operation that exactness rests on (floats, conversions, 32- and 64-bit integers, additions in
-/// a work group, texels) on 10^5 inputs, and compares with the host bit for bit. Blocks; some ten milliseconds, and the
-/// making of pipelines. A method that the driver fails is not trusted, with the error or the operation as its text;
-/// only a lost device fails the call.
+/// Renders a known number of fragments by each of `methods` (empty: all of the Context): a full viewport in an opaque,
+/// a transparent and a half-opaque volume. For methods whose default filter is Exact, also compares each operation that
+/// exactness needs (floats, conversions, 32- and 64-bit integers, additions in a work group, texels) with the host, bit
+/// for bit, on 10^5 inputs. Blocks for some ten milliseconds and the creation of pipelines. A failing method is not
+/// trusted; only a lost device fails the call.
 [[nodiscard]] VOXTACT_API Result<std::vector<SelfTestVerdict>>
 selfTest(const Context& context, const QueueAccess& queue, std::span<const CountingMethod> methods = {});
 

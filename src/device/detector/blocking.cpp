@@ -96,7 +96,7 @@ BlockingDetector& BlockingDetector::operator=(BlockingDetector&&) noexcept = def
 BlockingDetector::~BlockingDetector() = default;
 
 Result<BlockingDetector> BlockingDetector::create(const Context& context, const DetectorDesc& desc,
-                                                  const QueueAccess& queue, std::uint32_t mostContacts) {
+                                                  const QueueAccess& queue, std::uint32_t maxContacts) {
     return guard([&]() -> Result<BlockingDetector> {
         Result<Detector> detector = Detector::create(context, desc);
         VOXTACT_TRY(detector);
@@ -104,7 +104,7 @@ Result<BlockingDetector> BlockingDetector::create(const Context& context, const 
         VOXTACT_TRY(submitter);
         const ResultsDesc resultsDesc{.timestamps = context.impl().timestampBits(queue.family) > 0,
                                       .queueFamily = queue.family,
-                                      .room = {.triangles = 1, .labels = 1, .contacts = mostContacts},
+                                      .room = {.triangles = 1, .labels = 1, .contacts = maxContacts},
                                       .staged = true}; // each submission is waited for
         return BlockingDetector(std::make_unique<State>(
             State{std::move(*detector), std::nullopt, false, resultsDesc, std::nullopt, std::move(*submitter)}));
