@@ -7,22 +7,29 @@
 #include <optional>
 #include <variant>
 
-/// The scene on the device. Each object is either uploaded from host memory or wrapped around the caller's own Vulkan
-/// objects, which are then never freed, written or transitioned.
+/// The scene on the device: objects uploaded from host memory, or wrapped around the caller's Vulkan objects. voxtact
+/// never frees, writes or transitions wrapped Vulkan objects.
 ///
-/// create() makes the device object and fills a staging buffer; wrap() uses objects of the caller's. cmdPrepare()
-/// records for any number of both what they need before their first use, and retire() frees the staging buffers when
-/// that submission is complete. cmdUpload() and releaseStaging() are the same for one object; upload() does all of it
-/// on the caller's queue, and waits.
+/// create() makes the device object and fills a staging buffer; wrap() uses the caller's Vulkan objects. cmdPrepare()
+/// records all work that objects need before their first use. Once its submission has completed, retire() frees the
+/// staging buffers. cmdUpload() and releaseStaging() do the same for one object. upload() runs all steps on the
+/// caller's queue and waits.
 ///
 /// Every cmdUpload():
 ///   call it             outside a render pass, on a queue with graphics (or with compute and transfer)
-///   expects             nothing; the object's former contents are discarded, and those of create() are there again
+///   expects             nothing; discards the object's contents and restores those of create()
 ///   leaves              the object readable by vertex input and by any shader stage, in every later command
 ///   queries             an active occlusion query is not affected
 ///   bound state         none is lost
 ///
-/// Lifetime: an object must outlive the command buffers that use it, and end before the device.
+/// Edits are Volume::cmdSet(), cmdWrite() and cmdCopy(), TransferFunction::cmdUpdate(), and Mesh::cmdUpdate(),
+/// cmdCopy() and cmdRefit(). They allocate no device memory and take effect in command-buffer order: earlier commands
+/// use the old contents, later commands the new ones. Host data, such as valueRange(), domain() and facts(), change at
+/// recording. Record edits in the order of execution, and re-record older commands before submitting them after an
+/// edit.
+///
+/// Lifetime: an object must outlive the command buffers that use it, and end before the device. Wrapped Vulkan objects
+/// must outlive their wrapper.
 /// Thread-safety: const functions are safe from any thread; all others need the caller's own lock.
 namespace voxtact {
 
@@ -32,105 +39,98 @@ struct MeshImpl;
 struct PoseBufferImpl;
 struct LabelMapImpl;
 
-/// An image of the caller's.
+/// An image that the caller owns.
 struct WrappedVolume {
     VkImageView view = VK_NULL_HANDLE;     ///< 3D, one mip level, component r sampled
     VkFormat format = VK_FORMAT_UNDEFINED; ///< R8_UNORM, R16_UNORM, R16_SNORM, R16_SFLOAT or R32_SFLOAT
     /// While commands execute: SHADER_READ_ONLY_OPTIMAL, READ_ONLY_OPTIMAL or GENERAL.
     VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-    Grid grid{}; ///< where its voxels are
-    /// value = slope * stored + intercept, where stored is the integer behind a UNORM or SNORM texel, or the float.
+    Grid grid{}; ///< position of the voxels
+    /// value = slope * stored + intercept; slope is not 0. `stored`: the integer of a UNORM or SNORM texel, or the
+    /// float.
     double slope = 1;
     double intercept = 0; ///< in the image's units
-    /// All values that the voxels on the image's faces take, where the caller knows: lets Boundary::Auto clamp. Refused
-    /// where they are no range.
+    /// Range of all voxels on the image's faces, if known: lets Boundary::Auto clamp. Refused unless lo <= hi.
     std::optional<ValueRange> boundaryValues;
-    /// As in VolumeOptions: the projection certified needs them. Not to be used before the first
-    /// Volume::cmdUpdateBricks(), of the whole grid.
+    /// Like VolumeOptions::bricks. Requires Volume::cmdUpdateBricks() of the whole grid before the first use.
     bool bricks = false;
 };
 
-/// What a volume is made with in addition to its voxels.
+/// Options of an uploaded volume.
 struct VolumeOptions {
     const char* name = nullptr; ///< appears on the Vulkan objects; may be null
-    /// Keeps the range of values of every brick of 8^3 cells on the device, which passes that skip what is transparent
-    /// need. 16 bytes per brick, and about a seventh more for boxes of 2^3, 4^3, ... bricks; refused where they are
-    /// more than the device's maxStorageBufferRange.
+    /// Keeps the value range of each brick of 8^3 cells on the device. The projection `certified` and RenderBricks need
+    /// bricks to skip transparent ones. 16 bytes per brick, plus about a seventh for boxes of 2^3, 4^3, ... bricks.
+    /// Refused if the bricks exceed the device's maxStorageBufferRange.
     bool bricks = false;
-    /// Allows cmdSet(), cmdWrite() and cmdCopy(); keeps room on the device for the texels of one slice or of a MiB,
-    /// what is more, and 64 KiB for rows. Refused where a slice has more than the device's maxStorageBufferRange.
+    /// Allows cmdSet(), cmdWrite() and cmdCopy(). Takes device memory for the texels of one slice or 1 MiB, whichever
+    /// is larger, and 64 KiB for rows. Refused if a slice exceeds the device's maxStorageBufferRange.
     bool editable = false;
 };
 
 /// A 3D image on the device.
 class Volume {
   public:
-    /// Refuses what checkVolume() refuses, and a volume beyond the device's limits (which limit, how large).
+    /// Refuses what checkVolume() refuses, and a volume beyond the device's limits (the error names limit and size).
     [[nodiscard]] VOXTACT_API static Result<Volume> create(const Context& context, const VolumeView& data,
                                                            const VolumeOptions& options = {});
-    /// Uses an image of the caller's, which must outlive this. Refuses a null view, a format or layout that is none of
-    /// those in WrappedVolume, a slope that is 0, what checkGrid() refuses, and a grid beyond the device's limits.
+    /// Uses the caller's image. Refuses a null view, a format, layout or slope that WrappedVolume excludes, and a grid
+    /// that checkGrid() refuses or that exceeds the device's limits.
     [[nodiscard]] VOXTACT_API static Result<Volume> wrap(const Context& context, const WrappedVolume& wrapped);
-    /// create(), cmdUpload() and releaseStaging() in one: submits on `queue` and waits. Blocks.
+    /// Calls create(), cmdUpload() and releaseStaging(): submits on `queue` and waits.
     [[nodiscard]] VOXTACT_API static Result<Volume> upload(const Context& context, const QueueAccess& queue,
                                                            const VolumeView& data, const VolumeOptions& options = {});
     VOXTACT_API Volume(Volume&&) noexcept;
     VOXTACT_API Volume& operator=(Volume&&) noexcept;
     VOXTACT_API ~Volume();
 
-    /// With VolumeOptions::bricks also fills the bricks: the queue needs compute, and the bound state that is lost is
-    /// that of cmdUpdateBricks().
+    /// Records the copy to the device; see "Every cmdUpload()". With VolumeOptions::bricks, also fills the bricks:
+    /// needs a queue with compute and loses the bound state of cmdUpdateBricks().
     VOXTACT_API Result<void> cmdUpload(VkCommandBuffer commandBuffer);
     /// Frees the staging buffer. The submission of cmdUpload() must be complete.
     VOXTACT_API void releaseStaging() noexcept;
 
-    /// Brings the bricks up to date after the caller changed voxels of a wrapped image; `changed` holds all of them.
-    /// Refuses a box that leaves the grid, and a volume without bricks.
+    /// Updates the bricks after the caller changed voxels of a wrapped image, all of them within `changed`. Refuses a
+    /// box outside the grid, and a volume without bricks.
     ///   call it             outside a render pass, on a queue with compute
-    ///   expects             the image in the wrapped layout; earlier commands that wrote it are waited for
+    ///   expects             the image in the wrapped layout; waits for earlier commands that wrote the image
     ///   leaves              the bricks readable by every later command
     ///   queries             an active occlusion query is not affected
     ///   bound state         lost: compute pipeline, descriptor sets of the compute bind point, push constants
     VOXTACT_API Result<void> cmdUpdateBricks(VkCommandBuffer commandBuffer, const VoxelBox& changed);
 
-    /// Edits in place, of a volume with VolumeOptions::editable. Each takes effect in command-buffer order: what is
-    /// recorded before it counts the old voxels, what is recorded after it the new ones. The bricks follow. No device
-    /// memory is allocated.
-    ///
-    /// What the host knows of the volume changes at once, to the safe side: valueRange() also holds the new values, or
-    /// is nothing after cmdCopy(); and after an edit that reaches the image's faces Boundary::Auto takes the range test
-    /// from then on. Record in the order in which the commands will be executed, and record again whatever was recorded
-    /// before such an edit and is to be submitted after it.
+    /// Edits need VolumeOptions::editable, and update the bricks. After an edit that reaches the image's faces,
+    /// Boundary::Auto uses the range test.
     ///   call it             outside a render pass, on a queue with graphics or compute; a Ball, or with bricks: with
     ///                       compute
-    ///   expects             a volume that was uploaded; earlier commands that use it are waited for
+    ///   expects             an uploaded volume; waits for earlier commands that use the volume
     ///   leaves              the volume readable by any shader stage, in every later command
     ///   queries             an active occlusion query is not affected
     ///   bound state         a Ball, or with bricks: lost as by cmdUpdateBricks(); otherwise none
     ///
-    /// Gives all voxels of a region one value, in the image's units; floats the nearest one. The faces cut a Ball off.
-    /// Of a Ball the host decides which voxels it has, as cpu::Volume::set(); one dispatch changes them, or one for
-    /// each MiB of the box around it. A box is filled and copied. Refuses what cpu::Volume::set() does: NaN, infinite,
-    /// out of the type's range or, for integers, not whole.
+    /// Sets the voxels of a region to a value in the image's units, rounded to the nearest float for float voxels.
+    /// Fills a box by copies. Clips a Ball to the grid; the host selects its voxels like cpu::Volume::set(), and one
+    /// dispatch per MiB of the bounding box sets them. Refuses what cpu::Volume::set() refuses, such as values that are
+    /// NaN, infinite, out of the type's range or, for integers, not whole.
     VOXTACT_API Result<void> cmdSet(VkCommandBuffer commandBuffer, const VoxelRegion& region, double value);
-    /// Writes the voxels of a box: scalars of the volume's type, as in VolumeView. They are kept in the command buffer
-    /// itself, which is for small edits; a large one is a cmdCopy(). Refuses what checkVolume() refuses.
+    /// Writes the voxels of a box: scalars of the volume's type, as in VolumeView. The command buffer holds the data;
+    /// use cmdCopy() for large edits. Refuses what checkVolume() refuses.
     VOXTACT_API Result<void> cmdWrite(VkCommandBuffer commandBuffer, const VoxelBox& box,
                                       std::span<const std::byte> voxels);
-    /// Copies the voxels of a box from a buffer of the caller's with usage TRANSFER_SRC, in the order of VolumeView, as
-    /// format() has them: int16 with its sign bit flipped, as uint16. Nothing looks at the values: floats must be
-    /// finite. `offset` is in bytes, a multiple of 4. Earlier commands that wrote the buffer are waited for.
+    /// Copies the voxels of a box from the caller's buffer, with usage TRANSFER_SRC. The texels have the order of
+    /// VolumeView and the type of format(): int16 as uint16 with the sign bit flipped. Floats must be finite; values
+    /// are not checked. `offset`: bytes, a multiple of 4. Waits for earlier commands that wrote the buffer.
     VOXTACT_API Result<void> cmdCopy(VkCommandBuffer commandBuffer, const VoxelBox& box, VkBuffer source,
                                      VkDeviceSize offset);
 
-    /// Where the voxels are.
+    /// Returns the position of the voxels.
     [[nodiscard]] VOXTACT_API const Grid& grid() const noexcept;
-    /// Smallest and largest voxel in the image's units; after edits, a range that holds all. Nothing for a wrapped
-    /// volume, and after cmdCopy().
+    /// Returns the smallest and largest voxel in the image's units; after edits, a range that contains all voxels.
+    /// Empty for a wrapped volume, and after cmdCopy().
     [[nodiscard]] VOXTACT_API std::optional<ValueRange> valueRange() const noexcept;
-    /// The image on the device, for passes of the caller's: 3D, in SHADER_READ_ONLY_OPTIMAL, or as it was wrapped.
+    /// Returns the device image for the caller's passes: 3D, in SHADER_READ_ONLY_OPTIMAL or the wrapped layout.
     [[nodiscard]] VOXTACT_API VkImageView view() const noexcept;
-    /// Its format; int16 voxels are kept as R16_UNORM with their sign bit flipped.
+    /// Returns the image's format: R16_UNORM with the sign bit flipped for int16 voxels.
     [[nodiscard]] VOXTACT_API VkFormat format() const noexcept;
 
     [[nodiscard]] VolumeImpl& impl() const noexcept { return *impl_; }
@@ -140,28 +140,27 @@ class Volume {
     std::unique_ptr<VolumeImpl> impl_;
 };
 
-/// A table of the caller's. Filter::Hardware needs a format that the device filters linearly; nobody can ask the view.
+/// A table that the caller owns. Filter::Hardware needs a format that the device filters linearly; voxtact cannot check
+/// the format.
 struct WrappedTransferFunction {
     VkImageView view = VK_NULL_HANDLE;                               ///< 1D, opacity in component r
     VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL; ///< while commands execute
-    ValueRange domain{};                                             ///< the values that the table covers; lo < hi
-    /// The same table on the host, where the caller has it: lets Boundary::Auto prove that it may clamp. The projection
-    /// `certified` needs it: the function is then linear between its entries.
+    ValueRange domain{};                                             ///< values that the table covers; lo < hi
+    /// Optional: the same table in host memory. Lets Boundary::Auto prove that clamping is allowed. Required by the
+    /// projection `certified`, which interpolates linearly between entries.
     std::span<const float> table;
 };
 
 /// Scalar -> opacity, on the device.
 class TransferFunction {
   public:
-    /// Refuses what sampleTable() refuses, and a table beyond the device's limits. `name` appears on the Vulkan
-    /// objects.
+    /// Refuses what sampleTable() refuses, and a table beyond the device's limits. `name` appears on Vulkan objects.
     [[nodiscard]] VOXTACT_API static Result<TransferFunction>
     create(const Context& context, const TransferFunctionDesc& desc, const char* name = nullptr);
-    /// Uses a table of the caller's, which must outlive this. Refuses a null view, a layout that no shader can
-    /// sample, and a domain that is empty.
+    /// Uses the caller's table. Refuses a null view, a layout that shaders cannot sample, and an empty domain.
     [[nodiscard]] VOXTACT_API static Result<TransferFunction> wrap(const Context& context,
                                                                    const WrappedTransferFunction& wrapped);
-    /// create(), cmdUpload() and releaseStaging() in one: submits on `queue` and waits. Blocks.
+    /// Calls create(), cmdUpload() and releaseStaging(): submits on `queue` and waits.
     [[nodiscard]] VOXTACT_API static Result<TransferFunction> upload(const Context& context, const QueueAccess& queue,
                                                                      const TransferFunctionDesc& desc,
                                                                      const char* name = nullptr);
@@ -169,28 +168,23 @@ class TransferFunction {
     VOXTACT_API TransferFunction& operator=(TransferFunction&&) noexcept;
     VOXTACT_API ~TransferFunction();
 
-    /// Records the copy to the device; see above for what it expects and leaves. domain() is that of create() again.
+    /// Records the copy to the device; see "Every cmdUpload()". Restores the domain() of create().
     VOXTACT_API Result<void> cmdUpload(VkCommandBuffer commandBuffer);
     /// Frees the staging buffer. The submission of cmdUpload() must be complete.
     VOXTACT_API void releaseStaging() noexcept;
 
-    /// Records a new table, of the same size, for the same or another domain. It takes effect in command-buffer order;
-    /// no device memory is allocated. Refuses what sampleTable() refuses, another size, and a wrapped table.
-    ///
-    /// domain() changes at once. What is recorded later counts with the new domain, what was recorded before with the
-    /// old one: record in the order in which the commands will be executed, and record again whatever was recorded
-    /// before this and is to be submitted after it.
+    /// Records a new table of the same size, for any domain. Refuses what sampleTable() refuses, another size, and a
+    /// wrapped table.
     ///   call it             outside a render pass, on any queue with graphics, compute or transfer
-    ///   expects             nothing: a table that was never uploaded is filled as well. Earlier commands that read it
-    ///                       are waited for
+    ///   expects             nothing, not even an upload; waits for earlier commands that read the table
     ///   leaves              the table readable by any shader stage, in every later command
     ///   queries             an active occlusion query is not affected
     ///   bound state         none is lost
     VOXTACT_API Result<void> cmdUpdate(VkCommandBuffer commandBuffer, const TransferFunctionDesc& desc);
 
-    /// The values that the table covers, as recorded last.
+    /// Returns the values that the last recorded table covers.
     [[nodiscard]] VOXTACT_API ValueRange domain() const noexcept;
-    [[nodiscard]] VOXTACT_API std::uint32_t tableSize() const noexcept; ///< 0 for a wrapped one without a host table
+    [[nodiscard]] VOXTACT_API std::uint32_t tableSize() const noexcept; ///< 0: wrapped without a host table
 
     [[nodiscard]] TransferFunctionImpl& impl() const noexcept { return *impl_; }
 
@@ -199,115 +193,102 @@ class TransferFunction {
     std::unique_ptr<TransferFunctionImpl> impl_;
 };
 
-/// Buffers of the caller's. Vertices are three floats each at the start of a stride, in object space: where they are
-/// far from the origin, floats lose what only vertices on the host keep.
+/// Buffers that the caller owns. A vertex is three floats in object space, at the start of a stride. Unlike vertices
+/// from host memory, wrapped ones lose precision far from the origin.
 struct WrappedMesh {
     VkBuffer vertices = VK_NULL_HANDLE; ///< usage VERTEX_BUFFER
     VkDeviceSize vertexOffset = 0;      ///< bytes, of the first position; a multiple of 4
-    /// Bytes; at least 12, a multiple of 4. Drawing it (by a rasteriser's method in `view` or `two-view`, or in a
-    /// picture) is LimitExceeded beyond the device's maxVertexInputBindingStride; `compute` and `dominant-axis` take
-    /// any.
+    /// Bytes; at least 12, a multiple of 4. Above the device's maxVertexInputBindingStride, pictures and rasterising
+    /// methods in `view` and `two-view` return LimitExceeded; `compute` and `dominant-axis` have no such limit.
     std::uint32_t vertexStride = 12;
     std::uint32_t vertexCount = 0;                ///< vertices in the buffer
-    VkBuffer indices = VK_NULL_HANDLE;            ///< usage INDEX_BUFFER; null: every three vertices are a triangle
+    VkBuffer indices = VK_NULL_HANDLE;            ///< usage INDEX_BUFFER; null: three consecutive vertices per triangle
     VkDeviceSize indexOffset = 0;                 ///< bytes
     VkIndexType indexType = VK_INDEX_TYPE_UINT32; ///< UINT16 or UINT32
-    std::uint32_t triangleCount = 0;              ///< triangles that are drawn
-    /// The buffers also have usage STORAGE_BUFFER, which the counting method `compute` and the projection
-    /// `dominant-axis` need. 16-bit indices must then be followed by two more bytes where they end in the middle of
-    /// four.
+    std::uint32_t triangleCount = 0;              ///< triangles to draw
+    /// The buffers also have usage STORAGE_BUFFER, which the method `compute` and the projection `dominant-axis` need.
+    /// If 16-bit indices then end at an offset that is not a multiple of 4, two more bytes must follow.
     bool storage = false;
-    /// As in MeshOptions; needs `storage`. Clusters and a copy of the indices are kept on the device, 17 bytes a
-    /// triangle. Not to be used before the first cmdUpload(); what changes the buffers later is followed by a
-    /// cmdRefit().
+    /// Like MeshOptions::clusters; needs `storage`. Keeps clusters and a copy of the indices on the device, 17 bytes
+    /// per triangle. Requires cmdUpload() before the first use, and cmdRefit() after later changes of the buffers.
     bool clusters = false;
-    /// For clusters, where the caller has them: the triangles on the host, in the same order. They are only examined
-    /// to find which are near each other: vertices may have gone elsewhere. Empty: 64 triangles that follow each other
-    /// are a cluster.
+    /// Optional, for clusters: the triangles in host memory, in the same order, to group near ones. The vertices may
+    /// have moved since. Empty: 64 consecutive triangles form a cluster.
     MeshView shape{};
 };
 
-/// How a mesh is made.
+/// Options of an uploaded mesh.
 struct MeshOptions {
     const char* name = nullptr; ///< appears on the Vulkan objects; may be null
-    /// Also creates and keeps clusters of near triangles, 4 to 5 bytes per triangle, for the projection
-    /// `certified` to skip those that cannot touch. create() then sorts the triangles, O(n log n).
+    /// Keeps clusters of near triangles on the device, 4 to 5 bytes per triangle, for culling in the projection
+    /// `certified`. create() then sorts the triangles, O(n log n).
     bool clusters = false;
-    /// Allows cmdUpdate() and cmdCopy(); keeps the triangles on the host, 12 bytes each, 16 with clusters.
+    /// Allows cmdUpdate() and cmdCopy(). Keeps the triangles in host memory, 12 bytes each, 16 with clusters.
     bool editable = false;
-    /// Bytes from one vertex to the next on the device; as in WrappedMesh. More than 12 are for cmdCopy(), from buffers
-    /// whose vertices are as far apart.
+    /// Like WrappedMesh::vertexStride, on the device. Above 12: for cmdCopy() from buffers with the same stride.
     std::uint32_t vertexStride = 12;
 };
 
 /// A triangle mesh on the device.
 class Mesh {
   public:
-    /// Refuses what checkMesh() refuses, and a stride that MeshOptions does not allow.
+    /// Refuses what checkMesh() refuses, and a stride that MeshOptions excludes.
     [[nodiscard]] VOXTACT_API static Result<Mesh> create(const Context& context, const MeshView& data,
                                                          const MeshOptions& options = {});
-    /// Uses buffers of the caller's, which must outlive this. Their contents are not examined: vertices must be finite
-    /// and indices in range. Refuses null vertices, strides and offsets that WrappedMesh does not allow, no triangles,
-    /// and with clusters: buffers without `storage`, more than the device's maxStorageBufferRange of them, a `shape`
-    /// that checkMesh() refuses or that has another number of triangles.
+    /// Uses the caller's buffers. Vertices must be finite and indices in range; the contents are not checked. Refuses
+    /// null vertices, strides and offsets that WrappedMesh excludes, and no triangles. With clusters, also refuses
+    /// buffers without `storage` or beyond the device's maxStorageBufferRange, and a `shape` that checkMesh() refuses
+    /// or that has another number of triangles.
     [[nodiscard]] VOXTACT_API static Result<Mesh> wrap(const Context& context, const WrappedMesh& wrapped);
-    /// create(), cmdUpload() and releaseStaging() in one: submits on `queue` and waits. Blocks.
+    /// Calls create(), cmdUpload() and releaseStaging(): submits on `queue` and waits.
     [[nodiscard]] VOXTACT_API static Result<Mesh> upload(const Context& context, const QueueAccess& queue,
                                                          const MeshView& data, const MeshOptions& options = {});
     VOXTACT_API Mesh(Mesh&&) noexcept;
     VOXTACT_API Mesh& operator=(Mesh&&) noexcept;
     VOXTACT_API ~Mesh();
 
-    /// Records the copy to the device; see above for what it expects and leaves. Of a wrapped mesh with clusters: what
-    /// is kept of these, and a cmdRefit(); what that one says holds then.
+    /// Records the copy to the device; see "Every cmdUpload()". For a wrapped mesh with clusters, records the clusters'
+    /// upload and a refit, with the table of cmdRefit().
     VOXTACT_API Result<void> cmdUpload(VkCommandBuffer commandBuffer);
     /// Frees the staging buffer. The submission of cmdUpload() must be complete.
     VOXTACT_API void releaseStaging() noexcept;
 
-    /// Bends a mesh with MeshOptions::editable: vertices come elsewhere, and triangles stay between them. Each takes
-    /// effect in command-buffer order: what is recorded before it counts and shows the old shape, what is recorded
-    /// after it the new one. Answers are bit for bit those of a mesh that is newly made; triangles stay in their
-    /// clusters, whose boxes are fitted to them on the device. Where neighbours go far apart, a new mesh is
-    /// faster to ask. No device memory is allocated.
-    ///
-    /// What the host knows of the mesh changes at once, facts() and how batches are cut into dispatches: record in the
-    /// order in which the commands will be executed, and record again whatever was recorded before this and is to be
-    /// submitted after it.
-    ///   call it             outside a render pass, on any queue with graphics, compute or transfer; one with compute
-    ///                       where the mesh has clusters
-    ///   expects             a mesh that was uploaded; earlier commands that use it are waited for
+    /// Deformations need MeshOptions::editable, move vertices and keep the triangles. Answers equal those of a new
+    /// mesh, bit for bit. Triangles stay in their clusters, and the device refits the clusters' boxes. If neighbours
+    /// move far apart, a new mesh is faster to query. The split of batches into dispatches also changes at recording.
+    ///   call it             outside a render pass, on any queue with graphics, compute or transfer; with clusters, on
+    ///                       one with compute
+    ///   expects             an uploaded mesh; waits for earlier commands that use the mesh
     ///   leaves              the mesh readable by vertex input and by any shader stage, in every later command
     ///   queries             an active occlusion query is not affected
     ///   bound state         with clusters: lost as by Volume::cmdUpdateBricks(); otherwise none
     ///
-    /// New vertices from host memory, three coordinates each in the order of MeshView::positions. They are kept in the
-    /// command buffer itself, `vertexStride` bytes each, so that frames in flight share nothing. facts() are theirs.
-    /// O(vertices + triangles). Refuses another number of coordinates and what checkMesh() refuses; the mesh is then as
-    /// it was.
+    /// Replaces the vertices from host memory, three coordinates each, in the order of MeshView::positions. The command
+    /// buffer holds the data, `vertexStride` bytes per vertex: frames in flight share nothing. O(vertices + triangles).
+    /// Refuses another number of coordinates, and what checkMesh() refuses; the mesh then stays unchanged.
     VOXTACT_API Result<void> cmdUpdate(VkCommandBuffer commandBuffer, std::span<const double> positions);
-    /// Copies the vertices from a buffer of the caller's with usage TRANSFER_SRC: three floats each, and from one to
-    /// the next MeshOptions::vertexStride bytes, all of which are copied, but for the last vertex, of which 12 are.
-    /// `offset` is in bytes, a multiple of 4. Earlier commands that wrote the buffer are waited for. Nothing looks at
-    /// the values: they must be finite, else answers say nothing about the triangles that have others. They are object
-    /// space, which floats must hold: only vertices that the host gives are kept relative to a centre of their own.
-    /// facts() are nothing from then on, until the next cmdUpdate(). O(1) on the host.
+    /// Copies the vertices from the caller's buffer, with usage TRANSFER_SRC: three floats each in object space, at
+    /// MeshOptions::vertexStride. Copies whole strides, but only 12 bytes of the last vertex. `offset`: bytes, a
+    /// multiple of 4. Waits for earlier commands that wrote the buffer. Vertices must be finite, which is not checked:
+    /// others invalidate the answers for their triangles. Far from the origin, floats lose precision: only vertices
+    /// from host memory are stored relative to the mesh's centre. O(1) on the host.
     VOXTACT_API Result<void> cmdCopy(VkCommandBuffer commandBuffer, VkBuffer source, VkDeviceSize offset);
 
-    /// Fits the clusters of a wrapped mesh to what its buffers hold after the caller changed vertices or indices. It
-    /// takes effect in command-buffer order. No device memory is allocated. Refuses a mesh that is not wrapped or has
-    /// no clusters.
+    /// Refits the clusters of a wrapped mesh after the caller changed vertices or indices. Refuses a mesh that is not
+    /// wrapped or has no clusters.
     ///   call it             outside a render pass, on a queue with compute
-    ///   expects             a mesh whose cmdUpload() was recorded; earlier commands that wrote the caller's buffers or
-    ///                       use the clusters are waited for
+    ///   expects             a mesh whose cmdUpload() was recorded; waits for earlier commands that wrote the caller's
+    ///                       buffers or use the clusters
     ///   leaves              the clusters and the caller's buffers readable by vertex input and by any shader stage, in
     ///                       every later command
     ///   queries             an active occlusion query is not affected
     ///   bound state         lost as by Volume::cmdUpdateBricks()
     VOXTACT_API Result<void> cmdRefit(VkCommandBuffer commandBuffer);
 
-    /// How many there are.
+    /// Returns the number of triangles.
     [[nodiscard]] VOXTACT_API std::uint32_t triangles() const noexcept;
-    /// Of the vertices as they were recorded last. Nothing for a wrapped mesh, and after cmdCopy().
+    /// Returns the facts of the last recorded vertices. Empty for a wrapped mesh, and from cmdCopy() to the next
+    /// cmdUpdate().
     [[nodiscard]] VOXTACT_API std::optional<MeshFacts> facts() const noexcept;
 
     [[nodiscard]] MeshImpl& impl() const noexcept { return *impl_; }
@@ -317,34 +298,32 @@ class Mesh {
     std::unique_ptr<MeshImpl> impl_;
 };
 
-/// Poses in a buffer of the caller's, where a shader of theirs has written them, or the host into mapped memory:
-/// `world_from_object`, 16 floats each, column-major, which is a mat4 of std430. The last row must be 0 0 0 1.
+/// Poses in the caller's buffer, written by a shader or through mapped memory: `world_from_object`, 16 floats each,
+/// column-major, like a mat4 of std430. The last row must be 0 0 0 1.
 struct WrappedPoses {
     VkBuffer buffer = VK_NULL_HANDLE; ///< usage STORAGE_BUFFER
-    VkDeviceSize offset = 0;          ///< bytes, of the first one; a multiple of 4
-    VkDeviceSize stride = 64;         ///< bytes from one to the next; at least 64, a multiple of 4
+    VkDeviceSize offset = 0;          ///< bytes, of the first pose; a multiple of 4
+    VkDeviceSize stride = 64;         ///< bytes from one pose to the next; at least 64, a multiple of 4
     std::uint32_t count = 0;          ///< poses in the buffer, at least 1
-    /// Upper bound of the scaling by any pose; 1 is a rigid motion. Positive. It bounds the work of
-    /// a dispatch of the projection `certified`, and no answer depends on it.
+    /// Upper bound of the scale of all poses; positive; 1: rigid motion. Limits the work of a dispatch of the
+    /// projection `certified`, and affects no answer.
     double maxScale = 1;
 };
 
-/// Poses on the device, for BatchItem::poses. What the host does with a pose is then done by a dispatch, with the same
-/// arithmetic, so that answers are those of the same floats in BatchItem::world_from_object, bit for bit; and recording
-/// a batch of 100,000 poses takes no longer for the poses than one of a single pose.
-/// Thread-safety: const members from any thread.
+/// Poses on the device, for BatchItem::poses. A dispatch processes them with the host's arithmetic: answers equal those
+/// of the same floats in BatchItem::world_from_object, bit for bit. The number of poses does not affect the time to
+/// record them.
 class PoseBuffer {
   public:
-    /// Uses a buffer of the caller's, which must outlive this. Its contents are not examined. Refuses a null buffer,
-    /// no poses, an offset and a stride that WrappedPoses does not allow, more than the device's maxStorageBufferRange,
-    /// and a maxScale that is not a positive number.
+    /// Uses the caller's buffer; the contents are not checked. Refuses a null buffer, members that WrappedPoses
+    /// excludes, and poses beyond the device's maxStorageBufferRange.
     [[nodiscard]] VOXTACT_API static Result<PoseBuffer> wrap(const Context& context, const WrappedPoses& wrapped,
                                                              const char* name = nullptr);
     VOXTACT_API PoseBuffer(PoseBuffer&&) noexcept;
     VOXTACT_API PoseBuffer& operator=(PoseBuffer&&) noexcept;
     VOXTACT_API ~PoseBuffer();
 
-    /// How many there are.
+    /// Returns the number of poses.
     [[nodiscard]] VOXTACT_API std::uint32_t count() const noexcept;
 
     [[nodiscard]] PoseBufferImpl& impl() const noexcept { return *impl_; }
@@ -354,28 +333,28 @@ class PoseBuffer {
     std::unique_ptr<PoseBufferImpl> impl_;
 };
 
-/// A label map on the device, on its own grid: a 3D image of R16_UINT that holds numbers of labels.
+/// A label map on the device, on its own grid: a 3D image in R16_UINT of indices into values().
 class LabelMap {
   public:
-    /// Refuses what checkGrid() refuses, a wrong number of indices, indices and values that makeLabels() would not
-    /// make, and a map beyond the device's limits (which limit, how large).
+    /// Refuses what checkGrid() refuses, a wrong number of indices, and indices and values that makeLabels() never
+    /// returns. Also refuses a map beyond the device's limits (the error names limit and size).
     [[nodiscard]] VOXTACT_API static Result<LabelMap> create(const Context& context, const LabelData& data,
                                                              const char* name = nullptr);
-    /// create(), cmdUpload() and releaseStaging() in one: submits on `queue` and waits. Blocks.
+    /// Calls create(), cmdUpload() and releaseStaging(): submits on `queue` and waits.
     [[nodiscard]] VOXTACT_API static Result<LabelMap> upload(const Context& context, const QueueAccess& queue,
                                                              const LabelData& data, const char* name = nullptr);
     VOXTACT_API LabelMap(LabelMap&&) noexcept;
     VOXTACT_API LabelMap& operator=(LabelMap&&) noexcept;
     VOXTACT_API ~LabelMap();
 
-    /// Records the copy to the device; see above for what it expects and leaves.
+    /// Records the copy to the device; see "Every cmdUpload()".
     VOXTACT_API Result<void> cmdUpload(VkCommandBuffer commandBuffer);
     /// Frees the staging buffer. The submission of cmdUpload() must be complete.
     VOXTACT_API void releaseStaging() noexcept;
 
-    /// Where its voxels are; need not be the volume's grid.
+    /// Returns the position of the voxels; may differ from the volume's grid.
     [[nodiscard]] VOXTACT_API const Grid& grid() const noexcept;
-    /// The labels, by their numbers.
+    /// Returns the labels, in the order of LabelData::values.
     [[nodiscard]] VOXTACT_API std::span<const std::int32_t> values() const noexcept;
 
     [[nodiscard]] LabelMapImpl& impl() const noexcept { return *impl_; }
@@ -388,12 +367,12 @@ class LabelMap {
 /// An object of the scene; not null.
 using Resource = std::variant<Volume*, TransferFunction*, Mesh*, LabelMap*>;
 
-/// Records what the resources need before their first use: the uploads of created ones, the bricks of wrapped volumes,
-/// the clusters of wrapped meshes. Skips resources that need nothing, or whose upload was recorded. Refuses a null
-/// pointer; on error the resources before it are recorded.
-///   call it             outside a render pass, on a queue with graphics; one with compute for bricks, and for clusters
-///                       of wrapped meshes
-///   expects             wrapped objects as their structs say; earlier commands that wrote them are waited for
+/// Records all work before the first use of resources: uploads of created ones, bricks of wrapped volumes, clusters of
+/// wrapped meshes. Skips resources that need no work, or whose upload was recorded. Refuses a null pointer. After an
+/// error, the preceding resources are recorded.
+///   call it             outside a render pass, on a queue with graphics; for bricks, and for clusters of wrapped
+///                       meshes, on one with compute
+///   expects             wrapped objects as their structs require; waits for earlier commands that wrote them
 ///   leaves              the resources readable by vertex input and by any shader stage, in every later command
 ///   queries             an active occlusion query is not affected
 ///   bound state         with bricks or clusters: lost as by Volume::cmdUpdateBricks(); otherwise none
