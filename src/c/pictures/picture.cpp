@@ -2,7 +2,7 @@
 // Pictures, recorded or in host memory.
 #include "c/convert_vulkan.h"
 #include "c/handles.h"
-#include "c/handles_render.h"
+#include "c/pictures/handles.h"
 
 using namespace voxtact;
 using namespace voxtact::c;

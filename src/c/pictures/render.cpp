@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What pictures are made of.
 #include "c/convert_vulkan.h"
-#include "c/handles_render.h"
+#include "c/pictures/handles.h"
 
 using namespace voxtact;
 using namespace voxtact::c;
