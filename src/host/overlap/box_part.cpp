@@ -3,10 +3,13 @@
 #include "core/base/infinity.h"
 #include "host/overlap/cube_share.h"
 
+#include <glm/common.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace voxtact::cpu {
 
@@ -18,6 +21,8 @@ using glm::dvec3;
 constexpr std::size_t kMaxIntervals = 8;
 /// A box with a shorter side is not divided again, voxels.
 constexpr double kMinSide = 0x1p-24;
+/// No sheet is divided into more parts, on average over a box.
+constexpr std::uint64_t kMaxParts = 256;
 /// Displacing the corners of a sheet by w changes the space behind it by no more than this times w and the box's faces.
 constexpr double kFaces = 16;
 
@@ -40,9 +45,11 @@ CellPartBox wholeCell(const VolumeImpl& volume, const NodePlace& cell) noexcept 
 
 /// The interpolant on a box: between which values it is, and how far from a linear function.
 struct BoxMeasure::Values {
+    Trilinear cell{}; ///< of the whole cell
+    dvec3 cellMiddle{};
+    double error = 0;
     double lo = 0;
     double hi = 0;
-    double error = 0;
     double middle = 0; ///< of the linear function
     dvec3 slope{};     ///< a half side along each axis changes it by so much
     double off = 0;    ///< all of `error` included
@@ -51,14 +58,7 @@ struct BoxMeasure::Values {
     dvec3 half{};
     Trilinear terms{}; ///< of the box
 
-    [[nodiscard]] double at(const dvec3& place) const noexcept {
-        const dvec3 own = (place - centre) / half;
-        return own.x * slope.x + own.y * slope.y + own.z * slope.z;
-    }
-    /// No linear value is farther from the middle one, at corners that are off by a box or so.
-    [[nodiscard]] double size() const noexcept {
-        return 4 * (std::abs(slope.x) + std::abs(slope.y) + std::abs(slope.z));
-    }
+    void setBox(const dvec3& from, const dvec3& to);
     /// Part of the box between two values, at most `error` apart.
     [[nodiscard]] double thickness() const noexcept {
         const double steepest = std::max({std::abs(slope.x), std::abs(slope.y), std::abs(slope.z)});
@@ -66,22 +66,20 @@ struct BoxMeasure::Values {
     }
 };
 
-/// The space behind sheets.
-struct BoxMeasure::Share {
-    double volume = 0;  ///< voxels
-    double unknown = 0; ///< of sheets whose jump is unknown
-    double slack = 0;   ///< rounding of either
-    bool isCrossed = false;
-    bool isInside = false; ///< all of the box; if it is not crossed
-};
-
 BoxMeasure::Values BoxMeasure::valuesOn(const CellPartBox& box) const {
     const PartCell cell = part_.cell(volume_, box.cell);
     Values out;
-    out.centre = 0.5 * (box.lo + box.hi);
-    out.half = 0.5 * (box.hi - box.lo);
-    const dvec3 cellMiddle{box.cell[0] + 0.5, box.cell[1] + 0.5, box.cell[2] + 0.5};
-    const Trilinear terms = within(cell.terms, 2.0 * (out.centre - cellMiddle), 2.0 * out.half);
+    out.cell = cell.terms;
+    out.cellMiddle = {box.cell[0] + 0.5, box.cell[1] + 0.5, box.cell[2] + 0.5};
+    out.error = 4 * cell.error;
+    out.setBox(box.lo, box.hi);
+    return out;
+}
+
+void BoxMeasure::Values::setBox(const dvec3& from, const dvec3& to) {
+    centre = 0.5 * (from + to);
+    half = glm::max(0.5 * (to - from), dvec3(kMinSide)); // a sheet may be a point
+    terms = within(cell, 2.0 * (centre - cellMiddle), 2.0 * half);
     std::array<double, 8> values = terms;
     for (const std::size_t axis : {std::size_t{1}, std::size_t{2}, std::size_t{4}}) {
         for (std::size_t i = 0; i < 8; ++i) {
@@ -92,72 +90,57 @@ BoxMeasure::Values BoxMeasure::valuesOn(const CellPartBox& box) const {
             }
         }
     }
-    const auto [lo, hi] = std::ranges::minmax(values);
-    out.error = 4 * cell.error;
-    out.lo = lo - out.error;
-    out.hi = hi + out.error;
+    const auto [least, greatest] = std::ranges::minmax(values);
+    lo = least - error;
+    hi = greatest + error;
     double all = 0; // NaN where a value is
     for (const double value : values) {
         all += value;
     }
     if (!std::isfinite(all)) {
-        out.lo = out.hi = std::nan("");
+        lo = hi = std::nan("");
     }
-    out.terms = terms;
-    out.middle = terms[0];
-    out.slope = {terms[1], terms[2], terms[4]};
+    middle = terms[0];
+    slope = {terms[1], terms[2], terms[4]};
     const double cubic = std::abs(terms[7]);
-    out.bent = {std::abs(terms[3]) + std::abs(terms[5]) + cubic, std::abs(terms[3]) + std::abs(terms[6]) + cubic,
-                std::abs(terms[5]) + std::abs(terms[6]) + cubic};
-    out.off = std::abs(terms[3]) + std::abs(terms[5]) + std::abs(terms[6]) + cubic + 2 * out.error;
-    return out;
+    bent = {std::abs(terms[3]) + std::abs(terms[5]) + cubic, std::abs(terms[3]) + std::abs(terms[6]) + cubic,
+            std::abs(terms[5]) + std::abs(terms[6]) + cubic};
+    off = std::abs(terms[3]) + std::abs(terms[5]) + std::abs(terms[6]) + cubic + 2 * error;
 }
 
-void BoxMeasure::placeSheets(const CellPartBox& box, const Values* values, const SheetList& sheets, Jump base,
-                             Share& all) {
-    corners_.clear();
-    placed_.clear();
-    const auto place = [&](const dvec3* corners, std::uint32_t count, double jump) {
-        Placed& placed = placed_.emplace_back();
-        placed.first = static_cast<std::uint32_t>(corners_.size());
-        placed.count = count;
-        placed.jump = jump;
-        for (std::uint32_t i = 0; i < count; ++i) {
-            const dvec3& at = corners[i];
-            Corner corner{at.y - box.lo.y, at.z - box.lo.z, box.hi.x - at.x};
-            if (values != nullptr) {
-                corner.near = values->at(at);
-                corner.far = values->at({box.hi.x, at.y, at.z});
-                placed.least = std::min({placed.least, corner.near, corner.far});
-                placed.greatest = std::max({placed.greatest, corner.near, corner.far});
-            }
-            corners_.push_back(corner);
-        }
-        const double volume = volumeBehind(&corners_[placed.first], count);
-        placed.volume = volume;
+BoxMeasure::Share BoxMeasure::shareOf(const CellPartBox& box, const SheetList& sheets, Jump base) const {
+    Share all;
+    const auto add = [&](double jump, double volume) {
         if (std::abs(jump) > 1) {
             all.unknown += std::abs(volume);
         } else {
             all.volume += jump * volume;
         }
     };
-    // Starts with the whole front face: the space behind it is the box.
-    const std::array<dvec3, 4> front{box.lo, dvec3{box.lo.x, box.hi.y, box.lo.z}, dvec3{box.lo.x, box.hi.y, box.hi.z},
-                                     dvec3{box.lo.x, box.lo.y, box.hi.z}};
-    place(front.data(), 4, base);
+    add(base, box.volume());
     Sheet sheet;
     for (std::size_t i = 0; i < sheets.count(); ++i) {
         sheets.get(i, sheet);
-        place(sheet.corners.data(), sheet.count, sheet.jump);
+        add(sheet.jump, sheet.volumeTo(box.hi.x));
     }
     const dvec3 side = box.hi - box.lo;
     all.slack =
-        kFaces * rounding_ * (side.y * side.z + side.x * (side.y + side.z)) * static_cast<double>(placed_.size());
-    all.isCrossed = sheets.count() > 0 || base == kUnknownJump;
-    all.isInside = base == 1;
+        kFaces * rounding_ * (side.y * side.z + side.x * (side.y + side.z)) * static_cast<double>(sheets.count() + 1);
+    return all;
 }
 
-double BoxMeasure::volumeBehind(const Corner* corners, std::uint32_t count) noexcept {
+namespace {
+
+/// A corner of a sheet: its place, how far it is to the plane behind it, and the linear values here and there.
+struct Corner {
+    double y = 0;
+    double z = 0;
+    double way = 0;
+    double near = 0;
+    double far = 0;
+};
+
+double volumeBehind(const Corner* corners, std::uint32_t count) noexcept {
     double sum = 0;
     for (std::uint32_t i = 2; i < count; ++i) {
         const Corner& a = corners[0];
@@ -170,7 +153,7 @@ double BoxMeasure::volumeBehind(const Corner* corners, std::uint32_t count) noex
 
 /// If the values grow along the path (slope > 0), the whole path counts if it begins at `from` or above, else the part
 /// beyond `from`; and vice versa.
-double BoxMeasure::volumeFrom(const Corner* corners, std::uint32_t count, double slope, double from) noexcept {
+double volumeFrom(const Corner* corners, std::uint32_t count, double slope, double from) noexcept {
     const double inverse = 1 / std::abs(slope);
     std::array<Corner, 2 * Sheet::kMax + 2> all;
     std::array<Corner, 2 * Sheet::kMax + 2> part;
@@ -222,80 +205,154 @@ double BoxMeasure::volumeFrom(const Corner* corners, std::uint32_t count, double
            (partCount > 2 ? volumeBehind(part.data(), partCount) : 0);
 }
 
-/// Behind all sheets whose jump is known.
-double BoxMeasure::behind(const Values& values, double from) const {
-    const double least = from - values.middle;
-    double sum = 0;
-    for (const Placed& one : placed_) {
-        if (one.jump == 0 || one.jump > 1 || one.greatest < least) {
-            continue;
-        }
-        sum += one.jump * (one.least >= least
-                               ? one.volume
-                               : volumeFrom(&corners_[one.first], one.count, values.slope.x / values.half.x, least));
-    }
-    return sum;
-}
-
-template <class Behind>
-BoxVolume BoxMeasure::between(const CellPartBox& box, const Values& values, const Share& all,
-                              const Behind& behind) const {
-    const OpaqueIntervals::Some some = part_.intervals.between(values.lo, values.hi);
-    BoxVolume out;
-    out.hi = std::min(std::max(all.volume, 0.0) + all.unknown + all.slack, box.volume());
-    const dvec3 side = box.hi - box.lo;
-    out.axis = longestOf(side);
-    const bool isSmall = side[out.axis] < kMinSide;
-    if (!some.known || some.outer.size() > kMaxIntervals) {
-        out.gain = isSmall || !some.known ? 0 : out.hi;
-        return out;
-    }
-    const auto from = [&](double value) {
-        return value > values.hi ? 0.0 : (value < values.lo ? all.volume : behind(value));
-    };
+/// The opaque part of a volume. `from(value, sign)` is its part with that value or more: certainly where `sign` is 1,
+/// possibly where it is -1. All of it has values from `lo` to `hi`.
+template <class From>
+ValueRange opaqueIn(const OpaqueIntervals::Some& some, double lo, double hi, double volume, const From& from) {
+    const auto above = [&](double value, double sign) { return value <= lo ? volume : from(value, sign); };
+    const auto beyond = [&](double value, double sign) { return value >= hi ? 0.0 : from(value, sign); };
     double certain = 0;
     for (const ValueRange& one : some.inner) {
-        const double lo = one.lo <= values.lo ? -kInfinity : one.lo + values.off;
-        const double hi = one.hi >= values.hi ? kInfinity : one.hi - values.off;
-        certain += lo < hi ? std::max(from(lo) - from(hi), 0.0) : 0;
+        certain += std::max(above(one.lo, 1) - beyond(one.hi, -1), 0.0);
     }
     double possible = 0;
-    double begin = kInfinity; // intervals that are so near to each other are one
-    double end = -kInfinity;
-    const auto addPossible = [&] { possible += begin < end ? std::max(from(begin) - from(end), 0.0) : 0; };
-    for (const ValueRange& one : some.outer) {
-        const double lo = one.lo <= values.lo ? -kInfinity : one.lo - values.off;
-        if (lo > end) {
-            addPossible();
-            begin = lo;
+    for (std::size_t i = 0; i < some.outer.size(); ++i) {
+        const double here = above(some.outer[i].lo, -1);
+        possible = i == 0 ? here : possible - std::max(beyond(some.outer[i - 1].hi, 1) - here, 0.0);
+    }
+    possible -= some.outer.empty() ? 0 : beyond(some.outer.back().hi, 1);
+    return {certain, std::max(possible, certain)};
+}
+
+} // namespace
+
+void BoxMeasure::Behind::add(const Behind& other) {
+    lo += other.lo;
+    hi += other.hi;
+    bent += other.bent;
+    isRounding = isRounding && other.isRounding;
+    isClear = isClear && other.isClear;
+}
+
+BoxMeasure::Behind BoxMeasure::behind(Values& values, const Sheet& sheet, double end) const {
+    dvec3 lo = sheet.corners[0];
+    dvec3 hi = lo;
+    for (std::uint32_t i = 1; i < sheet.count; ++i) {
+        lo = glm::min(lo, sheet.corners[i]);
+        hi = glm::max(hi, sheet.corners[i]);
+    }
+    values.setBox(lo, {end, hi.y, hi.z});
+    std::array<Corner, Sheet::kMax> corners;
+    double least = kInfinity;
+    double greatest = -kInfinity;
+    const auto setValues = [&](const dvec3& slope, double middle) {
+        const dvec3 by = slope / values.half;
+        const double way = by.x * (end - values.centre.x);
+        for (std::uint32_t i = 0; i < sheet.count; ++i) {
+            const dvec3 at = sheet.corners[i] - values.centre;
+            const double beside = middle + by.y * at.y + by.z * at.z;
+            corners[i] = {at.y, at.z, end - sheet.corners[i].x, beside + by.x * at.x, beside + way};
         }
-        begin = std::min(begin, lo);
-        end = one.hi >= values.hi ? kInfinity : one.hi + values.off;
+    };
+    setValues(values.slope, values.middle);
+    for (std::uint32_t i = 0; i < sheet.count; ++i) {
+        least = std::min({least, corners[i].near, corners[i].far});
+        greatest = std::max({greatest, corners[i].near, corners[i].far});
     }
-    addPossible();
-    const double slack = all.slack * static_cast<double>(2 * some.outer.size());
-    out.lo = std::clamp(certain - slack - all.unknown, 0.0, out.hi);
-    out.hi = std::clamp(possible + slack + all.unknown, out.lo, out.hi);
-    const bool isRounding = values.off <= 8 * values.error && all.unknown == 0;
-    out.gain = isSmall || isRounding || out.hi - out.lo <= 4 * slack ? 0 : out.hi - out.lo;
-    out.axis = all.unknown > 0 ? out.axis : longestOf(values.bent);
-    if (side[out.axis] < kMinSide) {
-        out.axis = longestOf(side);
+    least = std::max(values.lo, least - values.off - 2 * values.error);
+    greatest = std::min(values.hi, greatest + values.off + 2 * values.error);
+    Behind out;
+    const OpaqueIntervals::Some some = part_.intervals.between(least, greatest);
+    out.isClear = some.known && some.outer.empty();
+    if (out.isClear) {
+        return out;
     }
+    const double volume = std::abs(volumeBehind(corners.data(), sheet.count));
+    if (!some.known || some.outer.size() > kMaxIntervals) {
+        out.hi = volume;
+        out.bent = values.bent;
+        out.isRounding = !some.known;
+        return out;
+    }
+    const ValueRange found = opaqueIn(some, least, greatest, volume, [&](double value, double sign) {
+        const LinearSign linear = linearSign(values.terms, value);
+        setValues(linear.slope, linear.middle);
+        out.bent = linear.bent;
+        out.isRounding = out.isRounding && linear.off <= 8 * values.error;
+        const double off = linear.off + 4 * values.error; // more than by the steepness where that changes by half
+        return std::min(std::abs(volumeFrom(corners.data(), sheet.count, linear.slope.x / values.half.x, sign * off)),
+                        volume);
+    });
+    out.lo = found.lo;
+    out.hi = found.hi;
     return out;
 }
 
-/// Every point of the solid is behind some sheet.
-bool BoxMeasure::mayBeOpaqueBehind(const Values& values) const {
-    double least = kInfinity;
-    double greatest = -kInfinity;
-    for (const Placed& one : placed_) {
-        least = one.jump != 0 ? std::min(least, one.least) : least;
-        greatest = one.jump != 0 ? std::max(greatest, one.greatest) : greatest;
+void BoxMeasure::addBehind(Values& values, const Sheet& sheet, double end, double near, Behind& sum) {
+    const Behind all = behind(values, sheet, end);
+    ++parts_;
+    const int axis = longestOf(all.bent);
+    const double at = values.centre[axis];
+    Sheet below;
+    Sheet above;
+    if (!all.isRounding && all.hi - all.lo > near && parts_ < lastPart_ && values.half[axis] >= kMinSide) {
+        cut(sheet, axis, at, below, above);
     }
-    const double beside = values.off + 2 * values.error + 0x1p-40 * values.size();
-    return part_.intervals.mayMeet(std::max(values.middle + least - beside, values.lo),
-                                   std::min(values.middle + greatest + beside, values.hi));
+    if ((below.empty() && above.empty()) || below.jump != sheet.jump || above.jump != sheet.jump) {
+        sum.add(all);
+        return;
+    }
+    if (!above.empty()) {
+        addBehind(values, above, end, near, sum);
+    }
+    if (!below.empty()) {
+        addBehind(values, below, axis == 0 ? at : end, near, sum);
+    }
+    if (axis == 0 && !below.empty()) {
+        below.setX(at);
+        addBehind(values, below, end, near, sum);
+    }
+}
+
+BoxVolume BoxMeasure::behindSheets(const CellPartBox& box, Values& values, const SheetList& sheets, Jump base,
+                                   double near, const BoxVolume* whole) {
+    const Share all = shareOf(box, sheets, base);
+    Behind sum;
+    sum.isRounding = all.unknown == 0;
+    sum.isClear = all.unknown == 0;
+    if (base == 1) {
+        const BoxVolume front = whole != nullptr ? *whole : opaque(box);
+        sum.add({front.lo, front.hi, {}, front.gain == 0, false});
+        sum.bent[front.axis] = front.gain;
+    }
+    lastPart_ = parts_ + kMaxParts * (sheets.count() + 1);
+    Sheet sheet;
+    for (std::size_t i = 0; i < sheets.count(); ++i) {
+        sheets.get(i, sheet);
+        if (sheet.jump == 0 || sheet.jump == kUnknownJump) {
+            continue;
+        }
+        Behind one;
+        addBehind(values, sheet, box.hi.x, near, one);
+        one.bent *= one.hi - one.lo;
+        if ((sheet.jump > 0) != (sheet.area() > 0)) {
+            one.lo = -std::exchange(one.hi, -one.lo);
+        }
+        sum.add(one);
+    }
+    const double slack = 2 * all.slack + all.unknown;
+    BoxVolume out;
+    out.mayOverlap = !sum.isClear;
+    out.hi = sum.isClear ? 0 : std::clamp(std::min(sum.hi, all.volume) + slack, 0.0, box.volume());
+    out.lo = std::clamp(sum.lo - slack, 0.0, out.hi);
+    const dvec3 side = box.hi - box.lo;
+    out.axis = longestOf(all.unknown > 0 ? side : sum.bent);
+    if (side[out.axis] < kMinSide) {
+        out.axis = longestOf(side);
+    }
+    const bool isDone = sum.isRounding || side[out.axis] < kMinSide || out.hi - out.lo <= 8 * all.slack;
+    out.gain = isDone ? 0 : out.hi - out.lo;
+    return out;
 }
 
 /// Measures a box with one end of an opaque interval in its range of values, on either side of a surface.
@@ -328,8 +385,42 @@ std::optional<BoxVolume> BoxMeasure::behindGraph(const CellPartBox& box, const V
     return out;
 }
 
-BoxVolume BoxMeasure::opaque(const CellPartBox& box) {
-    Values values = valuesOn(box);
+/// By the part above a value of a linear function.
+BoxVolume BoxMeasure::linearly(const CellPartBox& box, Values values) const {
+    const OpaqueIntervals::Some some = part_.intervals.between(values.lo, values.hi);
+    const dvec3 side = box.hi - box.lo;
+    BoxVolume out;
+    out.hi = box.volume();
+    out.axis = longestOf(side);
+    const bool isSmall = side[out.axis] < kMinSide;
+    if (!some.known || some.outer.size() > kMaxIntervals) {
+        out.gain = isSmall || !some.known ? 0 : out.hi;
+        return out;
+    }
+    const double flat = kFlatSlope * (std::abs(values.slope.x) + std::abs(values.slope.y) + std::abs(values.slope.z));
+    for (int axis = 0; axis < 3; ++axis) {
+        if (std::abs(values.slope[axis]) < flat) {
+            values.off += std::abs(values.slope[axis]);
+            values.slope[axis] = 0;
+        }
+    }
+    const ValueRange found = opaqueIn(some, values.lo, values.hi, out.hi, [&](double value, double sign) {
+        return box.volume() * linearShare(values.slope, value + sign * values.off - values.middle);
+    });
+    const double slack = (kShareError + values.thickness()) * box.volume() * static_cast<double>(2 * some.outer.size());
+    out.lo = std::clamp(found.lo - slack, 0.0, out.hi);
+    out.hi = std::clamp(found.hi + slack, out.lo, out.hi);
+    const bool isRounding = values.off <= 8 * values.error;
+    out.gain = isSmall || isRounding || out.hi - out.lo <= 4 * slack ? 0 : out.hi - out.lo;
+    out.axis = longestOf(values.bent);
+    if (side[out.axis] < kMinSide) {
+        out.axis = longestOf(side);
+    }
+    return out;
+}
+
+BoxVolume BoxMeasure::opaque(const CellPartBox& box) const {
+    const Values values = valuesOn(box);
     BoxVolume out;
     if (part_.intervals.contain(values.lo, values.hi)) {
         out.lo = out.hi = box.volume();
@@ -339,62 +430,38 @@ BoxVolume BoxMeasure::opaque(const CellPartBox& box) {
         out.mayOverlap = false;
         return out;
     }
-    if (const std::optional<BoxVolume> graph = behindGraph(box, values)) {
-        return *graph;
-    }
-    const double flat = kFlatSlope * (std::abs(values.slope.x) + std::abs(values.slope.y) + std::abs(values.slope.z));
-    for (int axis = 0; axis < 3; ++axis) {
-        if (std::abs(values.slope[axis]) < flat) {
-            values.off += std::abs(values.slope[axis]);
-            values.slope[axis] = 0;
-        }
-    }
-    Share all;
-    all.volume = box.volume();
-    all.slack = (kShareError + values.thickness()) * box.volume();
-    all.isInside = true;
-    return between(box, values, all,
-                   [&](double from) { return all.volume * linearShare(values.slope, from - values.middle); });
+    const std::optional<BoxVolume> graph = behindGraph(box, values);
+    return graph ? *graph : linearly(box, values);
 }
 
-BoxVolume BoxMeasure::measure(const CellPartBox& box, const SheetList& sheets, Jump base) {
+BoxVolume BoxMeasure::measure(const CellPartBox& box, const SheetList& sheets, Jump base, double near,
+                              const BoxVolume* whole) {
+    BoxVolume out;
     if (sheets.count() == 0 && base == 1) {
-        BoxVolume out = opaque(box);
+        out = opaque(box);
         out.mayLeave = false;
         return out;
     }
-    const bool isEmpty = sheets.count() == 0 && base == 0;
-    const Values values = valuesOn(box);
-    if (isEmpty || !part_.intervals.mayMeet(values.lo, values.hi)) {
-        BoxVolume none;
-        none.mayOverlap = false;
-        none.mayLeave = part_.intervals.mayMeet(values.lo, values.hi);
-        none.outside = part_.intervals.contain(values.lo, values.hi) ? box.volume() : 0;
-        return none;
-    }
-    Share all;
+    Values values = valuesOn(box);
     const bool isAll = part_.intervals.contain(values.lo, values.hi);
-    placeSheets(box, isAll ? nullptr : &values, sheets, base, all);
-    if (!isAll && !mayBeOpaqueBehind(values)) {
-        BoxVolume none;
-        none.mayOverlap = false;
-        none.outside = opaque(box).lo;
-        return none;
-    }
-    if (!isAll) {
-        all.slack += values.thickness() * box.volume() * static_cast<double>(placed_.size());
-        BoxVolume out = between(box, values, all, [&](double from) { return behind(values, from); });
-        out.mayLeave = all.isCrossed;
-        out.outside = std::max(opaque(box).lo - out.hi, 0.0);
+    const bool mayBe = part_.intervals.mayMeet(values.lo, values.hi);
+    if (!mayBe || (sheets.count() == 0 && base == 0)) {
+        out.mayOverlap = false;
+        out.mayLeave = mayBe;
+        out.outside = isAll ? box.volume() : 0;
         return out;
     }
-    BoxVolume out;
+    if (!isAll) {
+        out = behindSheets(box, values, sheets, base, near, whole);
+        out.outside = wantsOutside_ ? std::max(opaque(box).lo - out.hi, 0.0) : 0;
+        return out;
+    }
+    const Share all = shareOf(box, sheets, base);
     out.hi = std::clamp(all.volume + all.unknown + all.slack, 0.0, box.volume());
     out.lo = std::clamp(all.volume - all.unknown - all.slack, 0.0, out.hi);
     out.axis = longestOf(box.hi - box.lo);
     out.gain = all.unknown > 0 && (box.hi - box.lo)[out.axis] >= kMinSide ? out.hi - out.lo : 0;
     out.outside = box.volume() - out.hi;
-    out.mayLeave = all.isCrossed;
     return out;
 }
 

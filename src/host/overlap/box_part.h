@@ -7,8 +7,8 @@
 
 #include <glm/vec3.hpp>
 
+#include <cstdint>
 #include <optional>
-#include <vector>
 
 namespace voxtact::cpu {
 
@@ -41,52 +41,53 @@ struct BoxVolume {
 /// Computes the opaque volume of a box behind sheets. For one thread.
 class BoxMeasure {
   public:
-    /// All must outlive it. `rounding`: no corner of a sheet is off by more, voxels.
-    BoxMeasure(const VolumeImpl& volume, const OpaquePart& part, double rounding)
-        : volume_(volume), part_(part), rounding_(rounding) {}
+    /// All must outlive it. `rounding`: no corner of a sheet is off by more, voxels. `wantsOutside`: sets
+    /// BoxVolume::outside where sheets are.
+    BoxMeasure(const VolumeImpl& volume, const OpaquePart& part, double rounding, bool wantsOutside = true)
+        : volume_(volume), part_(part), rounding_(rounding), wantsOutside_(wantsOutside) {}
 
     /// Returns the opaque volume of a box, without the solid.
-    [[nodiscard]] BoxVolume opaque(const CellPartBox& box);
-    /// `sheets` are in the box. `base`: the solid's winding in front of them, 0 or 1, or kUnknownJump.
-    [[nodiscard]] BoxVolume measure(const CellPartBox& box, const SheetList& sheets, Jump base);
+    [[nodiscard]] BoxVolume opaque(const CellPartBox& box) const;
+    /// `sheets` are in the box. `base`: the solid's winding in front of them, 0 or 1, or kUnknownJump. `near`: divides
+    /// sheets until the bounds of each part differ by at most this. `whole`: opaque(box), or narrower bounds.
+    [[nodiscard]] BoxVolume measure(const CellPartBox& box, const SheetList& sheets, Jump base, double near = kInfinity,
+                                    const BoxVolume* whole = nullptr);
+    /// Number of parts of sheets, in all calls.
+    [[nodiscard]] std::uint64_t parts() const noexcept { return parts_; }
 
   private:
     struct Values;
-    struct Share;
+    /// The opaque part of the space from sheets to a plane behind them.
+    struct Behind {
+        double lo = 0;
+        double hi = 0;
+        glm::dvec3 bent{};      ///< how much nearer dividing across an axis may bring these
+        bool isRounding = true; ///< not at all
+        bool isClear = true;    ///< nothing is opaque
+
+        void add(const Behind& other);
+    };
+    /// The space behind sheets.
+    struct Share {
+        double volume = 0;  ///< voxels
+        double unknown = 0; ///< of sheets whose jump is unknown
+        double slack = 0;   ///< rounding of either
+    };
     [[nodiscard]] Values valuesOn(const CellPartBox& box) const;
-    [[nodiscard]] double behind(const Values& values, double from) const;
-    [[nodiscard]] bool mayBeOpaqueBehind(const Values& values) const;
     [[nodiscard]] std::optional<BoxVolume> behindGraph(const CellPartBox& box, const Values& values) const;
-    template <class Behind>
-    [[nodiscard]] BoxVolume between(const CellPartBox& box, const Values& values, const Share& all,
-                                    const Behind& behind) const;
-    void placeSheets(const CellPartBox& box, const Values* values, const SheetList& sheets, Jump base, Share& all);
+    [[nodiscard]] BoxVolume linearly(const CellPartBox& box, Values values) const;
+    [[nodiscard]] Share shareOf(const CellPartBox& box, const SheetList& sheets, Jump base) const;
+    [[nodiscard]] Behind behind(Values& values, const Sheet& sheet, double end) const;
+    void addBehind(Values& values, const Sheet& sheet, double end, double near, Behind& sum);
+    [[nodiscard]] BoxVolume behindSheets(const CellPartBox& box, Values& values, const SheetList& sheets, Jump base,
+                                         double near, const BoxVolume* whole);
 
     const VolumeImpl& volume_;
     const OpaquePart& part_;
     double rounding_;
-
-    /// A corner of a sheet: its position, the depth of the box behind it, and the linear values at both ends.
-    struct Corner {
-        double y = 0;
-        double z = 0;
-        double way = 0;
-        double near = 0;
-        double far = 0;
-    };
-    struct Placed {
-        std::uint32_t first = 0;
-        std::uint32_t count = 0;
-        double jump = 0;
-        double volume = 0;            ///< behind it
-        double least = kInfinity;     ///< of the linear values there
-        double greatest = -kInfinity; ///< see `least`
-    };
-    static double volumeBehind(const Corner* corners, std::uint32_t count) noexcept;
-    static double volumeFrom(const Corner* corners, std::uint32_t count, double slope, double from) noexcept;
-
-    std::vector<Corner> corners_; ///< of `placed_`
-    std::vector<Placed> placed_;
+    bool wantsOutside_;
+    std::uint64_t parts_ = 0;
+    std::uint64_t lastPart_ = 0; ///< no division of sheets after this part
 };
 
 } // namespace voxtact::cpu

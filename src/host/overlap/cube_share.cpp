@@ -11,6 +11,9 @@ namespace {
 
 using glm::dvec3;
 
+/// The steepness along an axis is not divided by where it changes by more, relative to it.
+constexpr double kMaxChange = 0.5;
+
 /// The part of a unit cube where a * x + b * y + c * z < at, for a <= b <= c, which are 1 together, and at <= 1/2
 /// (Scardovelli and Zaleski, "Analytical relations connecting linear interfaces and volume fractions in rectangular
 /// grids", 2000).
@@ -103,7 +106,6 @@ struct AlongAxis {
 } // namespace
 
 std::optional<GraphShare> graphShare(const Trilinear& terms, double from) noexcept {
-    constexpr double kMaxChange = 0.5;
     std::optional<GraphShare> best;
     double least = kMaxChange;
     for (unsigned axis = 0; axis < 3; ++axis) {
@@ -119,6 +121,45 @@ std::optional<GraphShare> graphShare(const Trilinear& terms, double from) noexce
         }
     }
     return best;
+}
+
+LinearSign linearSign(const Trilinear& terms, double from) noexcept {
+    const double all = terms[0] - from;
+    const double cubic = std::abs(terms[7]);
+    const dvec3 bent{std::abs(terms[3]) + std::abs(terms[5]) + cubic, std::abs(terms[3]) + std::abs(terms[6]) + cubic,
+                     std::abs(terms[5]) + std::abs(terms[6]) + cubic};
+    LinearSign out{{terms[1], terms[2], terms[4]}, all, 0.5 * (bent.x + bent.y + bent.z - cubic), bent};
+    for (unsigned axis = 0; axis < 3; ++axis) {
+        const AlongAxis along(terms, axis, from);
+        const double change = along.change();
+        if (change > kMaxChange) {
+            continue;
+        }
+        // The function is A + x b (1 + e), and 0 at x = -A / (b (1 + e)). At -A (1 - e) / b = x (1 - e^2) it is off by
+        // no more than e^2 if x is from -1 to 1, and beyond the cube's end less e^2 if x is beyond.
+        const double e1 = along.e1 / along.b;
+        const double e2 = along.e2 / along.b;
+        const double e3 = along.e3 / along.b;
+        const double square = change * change * std::abs(along.b);
+        const double yy = along.a1 * e1; // y^2 is between 0 and 1
+        const double zz = along.a2 * e2;
+        const double yz = std::abs(along.a3 - along.a0 * e3 - along.a1 * e2 - along.a2 * e1);
+        const double rest = square + yz + std::abs(along.a1 * e3 + along.a3 * e1) +
+                            std::abs(along.a2 * e3 + along.a3 * e2) + std::abs(along.a3 * e3);
+        const double off = rest + 0.5 * (std::abs(yy) + std::abs(zz));
+        if (off < out.off) {
+            out.middle = along.a0 - 0.5 * (yy + zz);
+            out.off = off;
+            const auto set = [&](unsigned at, double slope, double gone) {
+                out.slope[static_cast<int>(at)] = slope;
+                out.bent[static_cast<int>(at)] = gone;
+            };
+            set(axis, along.b, 0);
+            set(along.y, along.a1 - along.a0 * e1, std::abs(yy) + rest);
+            set(along.z, along.a2 - along.a0 * e2, std::abs(zz) + rest);
+        }
+    }
+    return out;
 }
 
 } // namespace voxtact::cpu

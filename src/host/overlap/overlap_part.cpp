@@ -98,7 +98,7 @@ BoxVolume OverlapPart::cell(const VolumeImpl& volume, const NodePlace& cell, uns
         return divided(measure, box, near, kDivisions + kMoreDivisions * level);
     };
     ValueRange found;
-    if (level < kKeptLevels) {
+    if (isKept(level)) {
         const std::uint32_t slot = slots_[part.occupancy.brickNumber(brickOf(cell))];
         const auto* brick = volumes_[level].find(slot);
         if (brick == nullptr) {

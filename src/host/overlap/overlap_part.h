@@ -58,6 +58,8 @@ class OverlapPart {
     /// may bring them nearer. `volume` is the one of the constructor, here and above.
     [[nodiscard]] BoxVolume cell(const VolumeImpl& volume, const NodePlace& cell, unsigned level) const;
 
+    /// Whether cells of this level are measured once for all poses.
+    [[nodiscard]] static constexpr bool isKept(unsigned level) noexcept { return level < kKeptLevels; }
     /// Estimated number of boxes of this level.
     [[nodiscard]] static std::uint64_t boxesOf(unsigned level) noexcept { return std::uint64_t{4} << (4 * level); }
     /// Returns true if a brick outside the box certainly contains an opaque point.

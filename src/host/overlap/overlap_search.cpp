@@ -15,6 +15,12 @@ namespace {
 /// Maximum number of boxes divided to decide the containment, once the bounds are within the tolerance.
 constexpr std::uint64_t kMoreSteps = 2048;
 
+/// The sheets of a cell are divided until the bounds of each part are so near to each other at level 0, of a voxel; at
+/// each further level they are nearer by the factor. After the last level the cell is halved.
+constexpr double kSheetNear = 0x1p-5;
+constexpr double kSheetNearer = 0x1p-4;
+constexpr unsigned kSheetLevels = 4;
+
 /// A box that may be measured better.
 struct OpenBox {
     /// Kinds of division: by the next level of a cell inside the solid, by the sheets of a crossed cell, or by halves.
@@ -25,7 +31,9 @@ struct OpenBox {
     Jump base = 0;
     BoxVolume volume;
     By by = By::Halves;
-    unsigned level = 0;       ///< for By::Level
+    double cost = 1;          ///< of that, an estimate
+    double near = kInfinity;  ///< BoxMeasure::measure()
+    unsigned level = 0;       ///< for By::Level and By::Sheets
     std::uint32_t number = 0; ///< of the crossed cell, for By::Sheets
     std::uint32_t run = 0;    ///< and the first one of its run
 };
@@ -48,7 +56,7 @@ class OverlapSum {
         outside_ -= volume.outside;
     }
     void open(OpenBox box) {
-        order_.push_back({box.volume.gain, boxes_.size()});
+        order_.push_back({box.volume.gain / box.cost, boxes_.size()});
         boxes_.push_back(std::move(box));
         if (isHeap_) {
             std::ranges::push_heap(order_, isWorse);
@@ -143,7 +151,8 @@ class OverlapSearch {
     OverlapSearch(const VolumeImpl& volume, const OverlapPart& part, const PairSurface& surface,
                   const OverlapLabels* labels, const OverlapGoal& goal)
         : volume_(volume), part_(part), surface_(surface), labels_(labels), goal_(goal),
-          measure_(volume, part.part, surface.rounding()), sums_(labels != nullptr ? labels->count : 1) {}
+          measure_(volume, part.part, surface.rounding(), !goal.isSomeOutside),
+          sums_(labels != nullptr ? labels->count : 1) {}
 
     std::vector<OverlapFound> run() {
         surface_.walk([this](const CrossedRow& row, std::uint32_t cell, std::uint32_t runBegin,
@@ -177,19 +186,21 @@ class OverlapSearch {
 
     /// Returns how many steps it was.
     std::uint64_t refine(OverlapSum& sum, OpenBox open) {
-        if (open.by == OpenBox::By::Halves) {
-            divide(sum, open);
-            return 1;
-        }
         sum.takeBack(open.volume);
-        if (open.by == OpenBox::By::Sheets) {
-            addBox(sum, open.box, sheetsOf(open.box, open.number, open.run), open.base);
-            return 1;
+        if (open.by != OpenBox::By::Level) {
+            const std::uint64_t before = measure_.parts();
+            if (open.by == OpenBox::By::Halves) {
+                divide(sum, open);
+            } else {
+                addSheets(sum, std::move(open));
+            }
+            return std::max<std::uint64_t>((measure_.parts() - before) / 16, 1);
         }
         ++open.level;
         open.volume = part_.cell(volume_, open.box.cell, open.level);
         sum.add(open.volume);
         const std::uint64_t boxes = OverlapPart::boxesOf(open.level);
+        open.cost = OverlapPart::isKept(open.level + 1) ? 1 : 16 * static_cast<double>(boxes);
         if (open.volume.gain > 0) {
             sum.open(std::move(open));
         }
@@ -199,17 +210,17 @@ class OverlapSearch {
     void divide(OverlapSum& sum, const OpenBox& open) {
         const int axis = open.volume.axis;
         const double at = 0.5 * (open.box.lo[axis] + open.box.hi[axis]);
-        sum.takeBack(open.volume);
         CellPartBox below = open.box;
         CellPartBox above = open.box;
         below.hi[axis] = at;
         above.lo[axis] = at;
         Halves halves = halvesOf(open.sheets, axis, at);
-        addBox(sum, below, std::move(halves.below), open.base);
+        const double near = open.near / 2;
+        addBox(sum, below, std::move(halves.below), open.base, near);
         if (const std::optional<Jump> base = axis == 0 ? baseAt(open, at) : std::nullopt) {
-            addBox(sum, above, behindPlane(open.sheets, at), *base);
+            addBox(sum, above, behindPlane(open.sheets, at), *base, near);
         } else {
-            addBox(sum, above, std::move(halves.above), open.base);
+            addBox(sum, above, std::move(halves.above), open.base, near);
         }
     }
 
@@ -251,11 +262,30 @@ class OverlapSearch {
         return behind;
     }
 
-    void addBox(OverlapSum& sum, const CellPartBox& box, SheetList sheets, Jump base) {
-        const BoxVolume volume = measure_.measure(box, sheets, base);
+    /// Measures a crossed cell at its level.
+    void addSheets(OverlapSum& sum, OpenBox open) {
+        const std::uint64_t before = measure_.parts();
+        SheetList sheets = sheetsOf(open.box, open.number, open.run);
+        const BoxVolume whole = open.base == 1 ? part_.cell(volume_, open.box.cell, 1) : BoxVolume{};
+        open.near = kSheetNear * std::pow(kSheetNearer, open.level);
+        open.volume = measure_.measure(open.box, sheets, open.base, open.near, &whole);
+        sum.add(open.volume);
+        if (open.volume.gain > 0) {
+            open.cost = 4 * static_cast<double>(measure_.parts() - before + 1); // the next level has about so many
+            if (++open.level == kSheetLevels) {
+                open.by = OpenBox::By::Halves;
+                open.sheets = std::move(sheets);
+            }
+            sum.open(std::move(open));
+        }
+    }
+
+    void addBox(OverlapSum& sum, const CellPartBox& box, SheetList sheets, Jump base, double near = kInfinity) {
+        const BoxVolume volume = measure_.measure(box, sheets, base, near);
         sum.add(volume);
         if (volume.gain > 0) {
-            sum.open({box, std::move(sheets), base, volume});
+            const auto cost = static_cast<double>(sheets.count() + 1);
+            sum.open({box, std::move(sheets), base, volume, OpenBox::By::Halves, cost, near});
         }
     }
 
@@ -316,7 +346,8 @@ class OverlapSearch {
         volume.gain = volume.hi - volume.lo;
         sums_[0].add(volume);
         if (volume.gain > 0) {
-            sums_[0].open({box, {}, base, volume, OpenBox::By::Sheets, 0, number, runBegin});
+            const double sheets = surface_.cells()[number].end - surface_.cells()[runBegin].first;
+            sums_[0].open({box, {}, base, volume, OpenBox::By::Sheets, 2 * (sheets + 1), 0, 0, number, runBegin});
         }
     }
 
