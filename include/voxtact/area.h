@@ -9,12 +9,11 @@
 
 /// Contact area: plain types, the same for every engine.
 ///
-/// The contact area of a pair is the area, in world mm^2, of the points of the mesh's surface that are opaque. A point
-/// is opaque if it lies in the volume's closed box, out to the outer faces of the outermost voxels, and the opacity of
-/// the trilinear interpolant reaches the threshold there. Every triangle counts: a closed mesh is not filled, and
-/// coincident triangles count twice. The area does not depend on the triangulation. It agrees with the projection
-/// `certified`: the area of a pair that certainly does not touch is 0. A touching pair may have area 0, too: a vertex
-/// may just reach the opaque region.
+/// The contact area of a pair is the area of the opaque part of the mesh's surface, in world mm^2. A point is opaque if
+/// it lies in the volume's closed box and the opacity of the trilinear interpolant there reaches the threshold. The box
+/// extends to the outer faces of the outermost voxels. Every triangle counts: a closed mesh is not filled, and
+/// coincident triangles count twice. The area does not depend on the triangulation. A pair that certainly does not
+/// touch (projection `certified`) has area 0. A touching pair may also have area 0, if only a vertex touches.
 namespace voxtact {
 
 /// Default tolerance, mm^2: maximum upper - lower.
@@ -29,8 +28,8 @@ struct PairArea {
     StopReason end{};       ///< why the search stopped
 };
 
-/// The area of one pair that is opaque and has a label: inside the boxes around the voxel centres for which labelAt()
-/// returns the label. The areas of all labels add up to that of the pair.
+/// The opaque area of one pair within one label: inside the boxes around the voxel centres for which labelAt() returns
+/// the label. The areas of all labels add up to the area of the pair.
 struct LabelArea {
     std::uint32_t pair = 0; ///< index of the pair in its batch
     std::uint32_t item = 0; ///< index of the BatchItem of the pair
@@ -40,7 +39,7 @@ struct LabelArea {
     StopReason end{};       ///< why the search stopped
 };
 
-/// The contact area of one triangle of a pair. Triangles that are not listed have area 0.
+/// The contact area of one triangle of a pair. Unlisted triangles have area 0.
 struct TriangleArea {
     std::uint32_t pair = 0;     ///< index of the pair in its batch
     std::uint32_t item = 0;     ///< index of the BatchItem of the pair
@@ -53,7 +52,7 @@ struct TriangleArea {
 /// The answer for a batch.
 struct AreaAnswer {
     std::vector<PairArea> pairs;         ///< in the order of the batch; empty if labels were requested
-    std::vector<TriangleArea> triangles; ///< triangles that may have an area, by pair, then by index; if requested
+    std::vector<TriangleArea> triangles; ///< if requested: triangles that may have an area, by pair, then by index
     std::vector<LabelArea> labels;       ///< by pair, then in the requested order
     double wallMilliseconds = 0;         ///< duration of the whole call
 };

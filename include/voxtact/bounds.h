@@ -17,7 +17,7 @@ struct Bounds {
 /// Why a search ended.
 enum class StopReason : std::uint32_t {
     Closed,   ///< upper - lower is within the tolerance, or both are infinite
-    Beyond,   ///< the distance is at least the maximum: `lower` is the maximum, `upper` infinite
+    Beyond,   ///< the distance is at least the maximum: `lower` is the maximum, `upper` is infinite
     Rounding, ///< rounding leaves the rest undecided
     Budget,   ///< the iteration limit was reached
 };

@@ -17,7 +17,7 @@
 /// arithmetic as the counting method `compute` with `exact` filtering (src/exact/exact.h). Culling (of clusters,
 /// triangles and spans) removes only parts that provably have no passing fragment, so it never changes a count.
 ///
-/// Lifetime: an object must outlive the calls that use it. It keeps nothing of the data that created it.
+/// Lifetime: an object must outlive the calls that use it. Objects keep no references to the data that created them.
 /// Thread-safety: const functions are safe from any thread.
 namespace voxtact::cpu {
 
@@ -30,8 +30,8 @@ struct HostEngineImpl;
 /// A 3D image on the host, with the smallest and largest value of each brick of 8^3 voxels.
 class Volume {
   public:
-    /// Copies the voxels. Refuses what checkVolume() refuses, and more than 2^23 voxels per side, the range of float
-    /// coordinates (LimitExceeded).
+    /// Copies the voxels. Refuses volumes that checkVolume() refuses, and more than 2^23 voxels per side, the range of
+    /// float coordinates (LimitExceeded).
     [[nodiscard]] VOXTACT_API static Result<Volume> create(const VolumeView& data);
     VOXTACT_API Volume(Volume&&) noexcept;
     VOXTACT_API Volume& operator=(Volume&&) noexcept;
@@ -39,16 +39,16 @@ class Volume {
     /// Returns the position of the voxels.
     [[nodiscard]] VOXTACT_API const Grid& grid() const noexcept;
 
-    /// Edits: the next call uses them. No call may use the volume during an edit. A refused edit changes nothing.
+    /// Edits: the next call uses the edit. No call may use the volume during an edit. A refused edit changes nothing.
     ///
-    /// Sets the voxels of a region to a value in the image's own units. Refuses what voxelBounds() refuses, and a value
-    /// that the voxel type cannot represent: NaN, infinite, out of range or, for integers, not whole. Floats are
-    /// rounded to the nearest. A region without voxels is no error.
+    /// Sets the voxels of a region to a value in the image's own units. Refuses regions that voxelBounds() refuses, and
+    /// a value that the voxel type cannot represent: NaN, infinite, out of range or, for integers, not whole. For
+    /// floats, rounds to the nearest. Accepts a region without voxels.
     [[nodiscard]] VOXTACT_API Result<void> set(const VoxelRegion& region, double value);
     /// Replaces the voxels of a box by scalars of the volume's type, x fastest, then y, then z, without padding, with
     /// any alignment. Refuses a box outside the grid, a wrong number of bytes, and NaN or infinite voxels.
     [[nodiscard]] VOXTACT_API Result<void> write(const VoxelBox& box, std::span<const std::byte> voxels);
-    /// Copies the current voxels of a box, in the layout of write(). Refuses a box outside the grid, and memory of
+    /// Copies the current voxels of a box, in the layout of write(). Refuses a box outside the grid, and a span of
     /// another size (InvalidArgument).
     [[nodiscard]] VOXTACT_API Result<void> read(const VoxelBox& box, std::span<std::byte> voxels) const;
 
@@ -62,7 +62,7 @@ class Volume {
 /// Scalar -> opacity.
 class TransferFunction {
   public:
-    /// Refuses what sampleTable() refuses.
+    /// Refuses descriptions that sampleTable() refuses.
     [[nodiscard]] VOXTACT_API static Result<TransferFunction> create(const TransferFunctionDesc& desc);
     VOXTACT_API TransferFunction(TransferFunction&&) noexcept;
     VOXTACT_API TransferFunction& operator=(TransferFunction&&) noexcept;
@@ -77,7 +77,7 @@ class TransferFunction {
 /// A triangle mesh, with its triangles in clusters. Triangles keep their indices.
 class Mesh {
   public:
-    /// Refuses what checkMesh() refuses.
+    /// Refuses meshes that checkMesh() refuses.
     [[nodiscard]] VOXTACT_API static Result<Mesh> create(const MeshView& data);
     VOXTACT_API Mesh(Mesh&&) noexcept;
     VOXTACT_API Mesh& operator=(Mesh&&) noexcept;
@@ -85,11 +85,11 @@ class Mesh {
     /// Returns the facts that checkMesh() computed.
     [[nodiscard]] VOXTACT_API const MeshFacts& facts() const noexcept;
 
-    /// Moves the vertices: three coordinates each, in the order of MeshView::positions; the triangles stay. The next
-    /// call uses the new shape; no call may use the mesh meanwhile. Answers equal those of a new mesh. Faster than a
-    /// new mesh, because triangles stay in their clusters, whose boxes are refitted; if neighbouring triangles move far
-    /// apart, queries of a new mesh are faster. O(vertices + triangles). Refuses another number of coordinates and what
-    /// checkMesh() refuses, and then changes nothing.
+    /// Moves the vertices: three coordinates each, in the order of MeshView::positions. The triangles stay. The next
+    /// call uses the new shape; no call may use the mesh during an update. Answers are the same as for a new mesh. An
+    /// update only refits the boxes of the clusters, and is faster than a new mesh. If neighbouring triangles move far
+    /// apart, queries of a new mesh are faster. O(vertices + triangles). Refuses another number of coordinates and
+    /// shapes that checkMesh() refuses; the mesh then stays unchanged.
     [[nodiscard]] VOXTACT_API Result<void> update(std::span<const double> positions);
     [[nodiscard]] const MeshImpl& impl() const noexcept { return *impl_; }
 
@@ -112,9 +112,9 @@ struct Batch {
     std::span<const BatchItem> items{};   ///< any number; the answers have the same order
     View view{};                          ///< at most kMaxViewport pixels per side; only for projections with a camera
     double threshold = kDefaultThreshold; ///< 0..1
-    /// Ends a call early, from any thread: once it is true, the call soon returns ErrorCode::Cancelled and its threads
-    /// stop. They read it between cells and iterations; a thread that saw true stops even if the flag is reset. If it
-    /// is true at the start, the call does nothing. May be null.
+    /// Cancels the call from any thread: once the flag is true, the call soon returns ErrorCode::Cancelled. Threads
+    /// read the flag between cells and iterations, and stop once they read true, even if it is reset. If the flag is
+    /// true at the start, the call does nothing. May be null.
     const std::atomic<bool>* cancel = nullptr;
 };
 
@@ -128,18 +128,18 @@ inline constexpr std::uint32_t kMaxThreads = 4096;
 struct TrackerDesc {
     /// mm, above 0: search radius; larger distances are not measured.
     double maximum = std::numeric_limits<double>::infinity();
-    double resolution = kDefaultResolution; ///< resolution of the touch, as Touch::resolution
-    std::uint64_t maxSteps = 512;           ///< iteration limit per search, then returns the current bounds; at least 1
+    double resolution = kDefaultResolution; ///< voxels: as Touch::resolution
+    std::uint64_t maxSteps = 512;           ///< iteration limit per search; then returns the current bounds; at least 1
 };
 
-/// Tracks a mesh that moves little from call to call, as in haptics: tells at every pose whether it touches, usually
-/// without a search. A mesh that moved by less than its last known distance is free, and its bounds follow from the
-/// earlier ones: the distance changes by at most the largest displacement of a point of the mesh. A search extends only
-/// as far as a few more moves like the last one, so the cost of an answer follows the speed. A certain touch never
-/// depends on earlier calls; the width of the bounds does, and so does whether a pose is free or undecided.
+/// Tracks a mesh that moves little from call to call, as in haptics. At every pose, returns whether the mesh touches,
+/// usually without a search. A mesh that moved by less than its last known distance is free. The new bounds follow from
+/// the earlier ones: the distance changes by at most the largest displacement of a mesh point. A search covers only a
+/// few more moves like the last one, so its cost depends on the speed. Earlier calls never affect a certain touch. They
+/// may affect the width of the bounds, and whether a pose is free or undecided.
 ///
-/// Runs on the calling thread. The first call with a volume, transfer function or threshold, and the first after an
-/// edit, prepares them, which takes milliseconds. Thread-safety: one call at a time.
+/// Runs on the calling thread. The first call with a volume, transfer function or threshold prepares it, which takes
+/// milliseconds; so does the first call after an edit. Thread-safety: one call at a time.
 class DistanceTracker {
   public:
     /// Refuses numbers outside the ranges of TrackerDesc.
@@ -148,8 +148,8 @@ class DistanceTracker {
     VOXTACT_API DistanceTracker& operator=(DistanceTracker&&) noexcept;
     VOXTACT_API ~DistanceTracker();
 
-    /// Tracks one mesh at one pose; labels are ignored. If the mesh, volume, transfer function or threshold differs
-    /// from the previous call, or after an edit, it searches. Refuses what HostEngine::ask() refuses, and any number of
+    /// Tracks one mesh at one pose; ignores labels. Searches after an edit, or if the mesh, volume, transfer function
+    /// or threshold differs from the previous call. Refuses items that HostEngine::ask() refuses, and any number of
     /// poses but 1.
     [[nodiscard]] VOXTACT_API Result<TrackedDistance> track(const BatchItem& item,
                                                             double threshold = kDefaultThreshold);
@@ -183,7 +183,7 @@ struct EntrySurface {
     bool borderEntries = false;
 };
 
-/// An instrument given as a mesh. Only its surface counts, as everywhere.
+/// An instrument given as a mesh. Only its surface counts.
 struct PlanMesh {
     const Mesh* mesh = nullptr; ///< required
     Vec3 tip{};                 ///< object space: moves to the target
@@ -196,20 +196,20 @@ struct Plan {
     EntrySurface surface{};                    ///< where paths begin
     std::span<const PlanObstacle> obstacles{}; ///< at least one
     Needle needle{};                           ///< the instrument
-    std::optional<PlanMesh> mesh{};            ///< instead of the needle. Triangles are then not certified
+    std::optional<PlanMesh> mesh{};            ///< instead of the needle; triangles are then not certified
     double margin = 0;                         ///< mm: minimum distance from the obstacles
     std::optional<double> longest{};           ///< mm: maximum length of a path
     std::optional<double> steepest{};          ///< degrees, up to 90: maximum angle to the normal of the surface
     bool triangleDistances = false;            ///< needle only: computes EntryTriangle::clearance; doubles the time
-    double tolerance = kDefaultPlanTolerance;  ///< mm, from 1e-6 on: stop when upper - lower is at most this
+    double tolerance = kDefaultPlanTolerance;  ///< mm, at least 1e-6: stop when upper - lower is at most this
     double maximum = kDefaultPlanMaximum;      ///< mm, above 0: larger distances are not measured
     std::uint64_t maxSteps = 1U << 18U;        ///< iteration limit per path, then the current bounds; at least 1
     const std::atomic<bool>* cancel = nullptr; ///< as Batch::cancel
 };
 
-/// Answers questions on the host. Keeps its threads between calls, and the structures that it built for the last
-/// volumes and transfer functions. Answers depend neither on the number of threads nor on the rest of the batch. Calls
-/// that take less time than waking a thread run on the caller's thread alone. Thread-safety: one call at a time.
+/// Answers questions on the host. Between calls, keeps its threads and the structures built for the last volumes and
+/// transfer functions. Answers depend neither on the number of threads nor on the rest of the batch. Calls that take
+/// less time than waking a thread run on the caller's thread alone. Thread-safety: one call at a time.
 class HostEngine {
   public:
     /// Starts the threads; 0: one per processor. Refuses more than kMaxThreads.
@@ -218,22 +218,22 @@ class HostEngine {
     VOXTACT_API HostEngine& operator=(HostEngine&&) noexcept;
     VOXTACT_API ~HostEngine();
 
-    /// All overloads refuse numbers outside the ranges of the question, null objects, bad poses, and a threshold
+    /// All overloads refuse numbers outside the ranges of the question, null objects, invalid poses, and a threshold
     /// outside [0,1]. Questions with labels refuse items without a label map or with one on another grid (Unsupported),
     /// and more labels than kMaxMeasuredLabels (LimitExceeded).
     [[nodiscard]] VOXTACT_API Result<TouchAnswer> ask(const Touch& question, const Batch& batch);
     /// Counts with CountingMethod::Cpu; gpuMilliseconds is 0. Refuses a singular camera, a viewport of 0 or beyond
-    /// kMaxViewport (dominant-axis: a volume that needs one), and outputs with stopAtFirst. dominant-axis sets up each
-    /// triangle separately: much slower than a view for meshes of small triangles.
+    /// kMaxViewport (dominant-axis: a volume that needs such a viewport), and outputs with stopAtFirst. For meshes of
+    /// small triangles, dominant-axis is much slower than a view.
     [[nodiscard]] VOXTACT_API Result<BatchAnswer> ask(const Count& question, const Batch& batch);
     /// Bounds each pair's distance. Labels need a label map in each item.
     [[nodiscard]] VOXTACT_API Result<DistanceAnswer> ask(const Distance& question, const Batch& batch);
-    /// Bounds the area of each pair's mesh that lies in the opaque region. Labels need a label map in each item.
+    /// Bounds the opaque area of each pair's mesh. Labels need a label map in each item.
     [[nodiscard]] VOXTACT_API Result<AreaAnswer> ask(const Area& question, const Batch& batch);
-    /// Also refuses a mesh with holes, band limits that do not ascend, and more than kMaxBandLimits of them.
+    /// Also refuses a mesh with holes, band limits that do not ascend, and more than kMaxBandLimits limits.
     [[nodiscard]] VOXTACT_API Result<OverlapAnswer> ask(const Overlap& question, const Batch& batch);
-    /// Also refuses what poseBetween() refuses, a number of shapes other than that of the items or their poses, and
-    /// shapes that Mesh::update() would refuse.
+    /// Also refuses poses that poseBetween() refuses and shapes that Mesh::update() refuses. The number of shapes must
+    /// equal that of the items or their poses.
     [[nodiscard]] VOXTACT_API Result<MotionAnswer> ask(const Motion& question, const Batch& batch);
     /// Refuses a target that is not finite, an axis of length 0, and a plan without an entry surface in any direction.
     [[nodiscard]] VOXTACT_API Result<PlanAnswer> ask(const Plan& question);

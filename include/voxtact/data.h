@@ -37,7 +37,7 @@ using Mat4 = std::array<double, 16>;
 [[nodiscard]] VOXTACT_API Result<Mat4> inverse(const Mat4& b_from_a);
 /// Transforms a point and divides by its w.
 [[nodiscard]] VOXTACT_API Vec3 transformPoint(const Mat4& b_from_a, const Vec3& point) noexcept;
-/// Widens a column-major float matrix, the layout of most engines.
+/// Converts a column-major float matrix, the layout of most engines, to doubles.
 [[nodiscard]] VOXTACT_API Mat4 fromFloats(const float (&columnMajor)[16]) noexcept;
 
 /// Range of spacings, mm: from a picometre to a million kilometres.
@@ -45,7 +45,7 @@ inline constexpr double kMinSpacing = 1e-9;
 inline constexpr double kMaxSpacing = 1e12; ///< also the maximum magnitude of an origin's coordinates
 
 /// Position of an image's voxels in the world. `direction` has three columns, the unit vectors (LPS) along the index
-/// axes: component r of axis c is at [3*c + r], as in ITK's direction matrix. It may be oblique, but not singular.
+/// axes: component r of axis c is at [3*c + r], as in ITK's direction matrix. Axes may be oblique, but not singular.
 struct Grid {
     std::array<std::uint32_t, 3> size{}; ///< voxels along x, y, z; each at least 1
     Vec3 spacing{1, 1, 1};               ///< mm; from kMinSpacing to kMaxSpacing
@@ -53,19 +53,19 @@ struct Grid {
     std::array<double, 9> direction{1, 0, 0, 0, 1, 0, 0, 0, 1}; ///< columns: unit vectors along the index axes
 };
 
-/// Refuses an empty grid, more than 2^56 voxels, a spacing outside [kMinSpacing, kMaxSpacing] (also if multiplied by
-/// the length of its direction), an origin beyond kMaxSpacing, and a singular or non-finite direction.
+/// Refuses an empty grid, more than 2^56 voxels, an origin beyond kMaxSpacing, and a singular or non-finite direction.
+/// Refuses a spacing outside [kMinSpacing, kMaxSpacing], also multiplied by the length of its direction.
 [[nodiscard]] VOXTACT_API Result<void> checkGrid(const Grid& grid);
 /// Returns the matrix from texture space to the world. Expects a grid that checkGrid() accepts.
 [[nodiscard]] VOXTACT_API Mat4 worldFromTexture(const Grid& grid) noexcept;
 /// Returns the matrix from index space to the world. Expects a grid that checkGrid() accepts.
 [[nodiscard]] VOXTACT_API Mat4 worldFromIndex(const Grid& grid) noexcept;
-/// Returns the inverse of worldFromTexture(). Refuses what checkGrid() refuses.
+/// Returns the inverse of worldFromTexture(). Refuses grids that checkGrid() refuses.
 [[nodiscard]] VOXTACT_API Result<Mat4> textureFromWorld(const Grid& grid);
 /// Returns the number of voxels.
 [[nodiscard]] VOXTACT_API std::uint64_t voxelCount(const Grid& grid) noexcept;
 
-/// Storage type of a voxel. Values are in the image's own unit (HU for CT), without another scale.
+/// Storage type of a voxel. Values are in the image's own unit (HU for CT), without further scaling.
 enum class ScalarType : std::uint32_t { UInt8, Int16, UInt16, Float32 };
 
 /// Returns 1, 2 or 4.
@@ -99,8 +99,8 @@ struct ValueRange {
     double hi = 0; ///< largest value
 };
 
-/// Returns the smallest and largest voxel. Refuses what checkGrid() refuses, a span of the wrong length, and NaN or
-/// infinite voxels (the error names the first). O(voxels).
+/// Returns the smallest and largest voxel. Refuses grids that checkGrid() refuses, a span of the wrong length, and NaN
+/// or infinite voxels (the error names the first). O(voxels).
 [[nodiscard]] VOXTACT_API Result<ValueRange> checkVolume(const VolumeView& volume);
 
 /// A corner of the piecewise linear transfer function.
@@ -119,7 +119,7 @@ struct ColourPoint {
 
 /// Default number of entries in a transfer function's table.
 inline constexpr std::uint32_t kDefaultTableSize = 256;
-/// Maximum number of entries in a table: floats distinguish no more.
+/// Maximum number of entries in a table: floats cannot distinguish more.
 inline constexpr std::uint32_t kMaxTableSize = 1U << 24U;
 inline constexpr double kDefaultThreshold = 0.1; ///< opacity from which a sample is opaque (paper, section 5)
 
@@ -136,17 +136,17 @@ struct TransferFunctionDesc {
     std::uint32_t tableSize = kDefaultTableSize; ///< entries; 2 to kMaxTableSize
 };
 
-/// Returns the domain of the table: the given one, or the one whose first and last entries lie at the first and last
-/// point. Around a single value, 1/4096 of it to both sides.
+/// Returns the domain of the table: the given domain, or the domain whose first and last entries lie at the first and
+/// last point. A single value is widened by 1/4096 of the value to both sides.
 [[nodiscard]] VOXTACT_API ValueRange tableDomain(const TransferFunctionDesc& desc) noexcept;
 
 /// Returns the table. Refuses an empty list of points; values that are not finite, not ascending (equal values make a
-/// step) or too far apart for a difference; opacities outside [0,1]; a domain that is empty or too wide; fewer than 2
+/// step) or whose difference overflows; opacities outside [0,1]; a domain that is empty or too wide; fewer than 2
 /// entries, and more than kMaxTableSize (LimitExceeded).
 [[nodiscard]] VOXTACT_API Result<std::vector<float>> sampleTable(const TransferFunctionDesc& desc);
 
 /// Effect of a threshold on a transfer function and a volume's values. If nothing is opaque, nothing touches: a correct
-/// answer, but rarely an intended one.
+/// answer, but rarely the intended one.
 struct OpacityFacts {
     bool reaches = false; ///< some value is opaque
     bool any = false;     ///< some value of the data is opaque
@@ -155,8 +155,8 @@ struct OpacityFacts {
     double moved = 0;
 };
 /// Computes the facts of a transfer function. `data`: the smallest and largest value, as checkVolume() returns them.
-/// Refuses what sampleTable() refuses, an empty or NaN range, and a threshold outside [0,1]. O(points + entries
-/// log(points)).
+/// Refuses descriptions that sampleTable() refuses, an empty or NaN range, and a threshold outside [0,1]. O(points +
+/// entries log(points)).
 [[nodiscard]] VOXTACT_API Result<OpacityFacts> checkOpacity(const TransferFunctionDesc& desc, const ValueRange& data,
                                                             double threshold = kDefaultThreshold);
 
@@ -168,7 +168,7 @@ struct MeshView {
     std::span<const double> positions;      ///< x, y, z of each vertex, object space
     std::span<const std::uint32_t> indices; ///< three per triangle
     /// Maximum distance of the curved surface from the triangles that approximate it, object units. cpu::HostEngine
-    /// answers Touch with *no* only if that surface does not touch; all other answers are about the triangles.
+    /// answers Touch with *no* only if the curved surface does not touch; all other answers refer to the triangles.
     double deflection = 0;
 };
 
@@ -196,8 +196,8 @@ struct MeshFacts {
     std::uint32_t triangles = 0;  ///< number of triangles, degenerate ones included
     std::uint32_t degenerate = 0; ///< triangles whose area is zero in float: allowed; they cover no pixel of a view
     Box bounds;                   ///< object space
-    /// Object units: the largest distance between a vertex and its float form in the engines. For a mesh far from the
-    /// origin the floats are relative to its centre. Certified answers hold for the given vertices.
+    /// Object units: the largest distance between a vertex and its float coordinates in the engines. For a mesh far
+    /// from the origin the floats are relative to its centre. Certified answers hold for the given vertices.
     double rounding = 0;
     double deflection = 0; ///< MeshView::deflection
 };
@@ -205,24 +205,24 @@ struct MeshFacts {
 /// Object units: a larger MeshFacts::rounding gives a note. 100 nm at a scale of 1.
 inline constexpr double kNotedRounding = 1e-4;
 
-/// Returns the facts of a mesh. Refuses a mesh without a triangle, a deflection that is negative or not finite, arrays
-/// whose length is not a multiple of three, vertices that are NaN, infinite or beyond the range of floats, and indices
-/// out of range (the error names the first). O(vertices + triangles).
+/// Returns the facts of a mesh. Refuses a mesh without a triangle, a deflection that is negative or not finite, and
+/// arrays whose length is not a multiple of three. Refuses vertices that are NaN, infinite or beyond the range of
+/// floats, and indices out of range; the error names the first. O(vertices + triangles).
 [[nodiscard]] VOXTACT_API Result<MeshFacts> checkMesh(const MeshView& mesh);
 
 /// The camera of the projections `view` and `two-view`.
 struct View {
     Mat4 clip_from_world{};     ///< Vulkan clip space; orthographic or perspective; not singular
     std::uint32_t width = 512;  ///< pixels; from 1 to the maximum of the method: Context::maxViewport()
-    std::uint32_t height = 512; ///< pixels, likewise
+    std::uint32_t height = 512; ///< pixels, like `width`
 };
 
 /// Returns an orthographic view along world -z (from above, anterior up: world x runs to the left, y down). Its square
 /// pixels frame the volume's box with a margin of 1 %.
 [[nodiscard]] VOXTACT_API Mat4 framingCamera(const Grid& grid, std::uint32_t width, std::uint32_t height) noexcept;
 
-/// Returns the second camera of the projection `two-view`: the view volume of the first one, seen along its x axis. If
-/// the first one gives the clip coordinates x, y, z, w, it gives 2z - w, y, (x + w) / 2, w: depth becomes x, x becomes
+/// Returns the second camera of the projection `two-view`: the view volume of the first one, seen along its x axis.
+/// Maps the clip coordinates x, y, z, w of the first camera to 2z - w, y, (x + w) / 2, w: depth becomes x, x becomes
 /// depth, and the view volume stays the same. Orthographic or perspective.
 [[nodiscard]] VOXTACT_API Mat4 sideView(const Mat4& clip_from_world) noexcept;
 
@@ -256,21 +256,21 @@ struct LabelData {
     std::vector<std::int32_t> values;   ///< the labels, ascending, each once; includes 0
 };
 
-/// Creates a label map. Refuses what checkVolume() refuses, float voxels that are not whole numbers within +-2^24, and
-/// more than 65536 different labels (LimitExceeded). O(voxels + the labels' range).
+/// Creates a label map. Refuses volumes that checkVolume() refuses, float voxels that are not whole numbers within
+/// +-2^24, and more than 65536 different labels (LimitExceeded). O(voxels + the labels' range).
 [[nodiscard]] VOXTACT_API Result<LabelData> makeLabels(const VolumeView& volume);
-/// Like makeLabels(VolumeView), for 32-bit labels, x fastest. O(voxels). Refuses what checkGrid() refuses, and a number
-/// of labels other than the number of voxels.
+/// Like makeLabels(VolumeView), for 32-bit labels, x fastest. O(voxels). Refuses grids that checkGrid() refuses, and a
+/// number of labels other than the number of voxels.
 [[nodiscard]] VOXTACT_API Result<LabelData> makeLabels(const Grid& grid, std::span<const std::int32_t> labels);
 
-/// Returns a label map on a volume's grid, of which the map's own is a part: the same directions and spacing, an offset
-/// of whole voxels, to a thousandth of one. Voxels outside that part have the label 0. Refuses other grids
+/// Extends a label map to a volume's grid, which must contain the map's grid: same directions and spacing, and an
+/// offset of whole voxels, within 0.001 voxel. Voxels outside the map's grid get the label 0. Refuses other grids
 /// (Unsupported). O(voxels).
 [[nodiscard]] VOXTACT_API Result<LabelData> labelsOnGrid(const LabelData& labels, const Grid& volume);
 
-/// Returns the index into `values` for a world point; that of label 0 outside the grid. Along an axis of n voxels, the
-/// voxel is floor(n * texture coordinate): half way between two centres the upper one, at 1 the last one. Expects what
-/// makeLabels() returns.
+/// Returns the index into `values` for a world point; outside the grid, the index of label 0. Along an axis of n
+/// voxels, the voxel is floor(n * texture coordinate): at 1 the last one, and halfway between two centres the upper
+/// one. Expects a map that makeLabels() returned.
 [[nodiscard]] VOXTACT_API std::uint32_t labelAt(const LabelData& labels, const Vec3& world) noexcept;
 
 /// Indices of two boxes that overlap, `first` < `second`.
@@ -282,8 +282,8 @@ struct BoxPair {
     auto operator<=>(const BoxPair&) const = default; // NOLINT(modernize-use-nullptr)
 };
 
-/// Returns all pairs of closed boxes that share a point, sorted (broad phase). Sweep and prune along the axis on which
-/// the centres vary most (Cohen et al., "I-COLLIDE", 1995, section 3). A box with a NaN or with lo > hi overlaps
+/// Returns all pairs of closed boxes that share a point, sorted (broad phase). Uses sweep and prune along the axis on
+/// which the centres vary most (Cohen et al., "I-COLLIDE", 1995, section 3). A box with a NaN or with lo > hi overlaps
 /// nothing. O(n log n + overlaps along the axis).
 [[nodiscard]] VOXTACT_API Result<std::vector<BoxPair>> overlappingPairs(std::span<const Box> boxes);
 
@@ -291,8 +291,8 @@ struct BoxPair {
 [[nodiscard]] VOXTACT_API Result<std::vector<BoxPair>> overlappingPairs(std::span<const Box> left,
                                                                         std::span<const Box> right);
 
-/// Returns the bounding box of the box's eight corners under an affine matrix, rounded outward (exact coordinates stay
-/// exact): the world box of a mesh at a pose (world_from_object), or of a volume (world_from_texture of the box
+/// Returns the bounding box of the box's eight corners under an affine matrix, rounded outward; exact coordinates stay
+/// exact. Gives the world box of a mesh at a pose (world_from_object), or of a volume (world_from_texture, box
 /// [0,1]^3). A box that overlaps nothing, or a matrix that is not finite, gives a box that overlaps nothing.
 [[nodiscard]] VOXTACT_API Box transformBox(const Mat4& b_from_a, const Box& box) noexcept;
 

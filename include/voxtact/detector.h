@@ -24,14 +24,13 @@ struct CertifiedDesc {
     Outputs outputs{};                      ///< in addition to the counts; ResultsDesc::room is their capacity
     bool stopAtFirst = false;               ///< early exit, without outputs: the count is 0 or 1, a lower bound
     bool counters = false; ///< counts the work of the passes for Results::counters(); costs some atomics per triangle
-    /// Batches may have BatchItem::poses. Adds the pass that makes pairs of them. In staged Results it also makes the
-    /// pairs of 256 poses of the host or more; the pairs are the same, bit for bit. Unsupported on a device without
-    /// doubles that round like the host's (shaderFloat64, shaderSignedZeroInfNanPreserveFloat64,
-    /// shaderRoundingModeRTEFloat64).
+    /// Allows BatchItem::poses: adds the pass that creates their pairs. With staged Results, this pass also creates the
+    /// pairs of 256 or more host poses; they are bit-identical. Unsupported on a device without doubles that round like
+    /// the host's (shaderFloat64, shaderSignedZeroInfNanPreserveFloat64, shaderRoundingModeRTEFloat64).
     bool devicePoses = false;
 };
 
-/// Counts of the fragments of a rasterisation.
+/// Options of a detector that counts the fragments of a rasterisation.
 struct RasterDesc {
     CountingMethod method = CountingMethod::Query;           ///< how fragments are counted; Cpu is refused: see cpu.h
     Projection projection = Projection::View;                ///< how meshes become fragments; Certified is refused
@@ -39,9 +38,9 @@ struct RasterDesc {
     Boundary boundary = Boundary::Auto;                      ///< treatment of points outside the image
     Outputs outputs{};                                       ///< like CertifiedDesc::outputs
     std::uint32_t samplesPerVoxel = kDefaultSamplesPerVoxel; ///< dominant-axis: along a voxel's side; 1 to 16
-    /// dominant-axis: every pixel that a triangle touches gives a fragment, by VK_EXT_conservative_rasterization. Its
-    /// texture coordinate is that of the pixel's centre in the triangle's plane, up to a pixel outside the triangle.
-    /// InvalidArgument for other projections and for the method compute.
+    /// dominant-axis: every pixel that a triangle touches gives a fragment, by VK_EXT_conservative_rasterization. The
+    /// fragment's texture coordinate is that of the pixel's centre in the triangle's plane, up to one pixel outside the
+    /// triangle. InvalidArgument for other projections and for the method compute.
     bool overestimate = false;
     /// Like CertifiedDesc::devicePoses. The queue needs compute in addition to graphics.
     bool devicePoses = false;
@@ -52,13 +51,13 @@ using DetectorDesc = std::variant<CertifiedDesc, RasterDesc>;
 
 /// One mesh at some poses against one volume under one transfer function.
 struct BatchItem {
-    const Mesh* mesh = nullptr;                         ///< required; outlives the command buffer, like all objects
+    const Mesh* mesh = nullptr;                         ///< required; must outlive the command buffer, like all objects
     const Volume* volume = nullptr;                     ///< required
     const TransferFunction* transferFunction = nullptr; ///< required: opacity of the volume's values
     std::span<const Mat4> world_from_object{};          ///< one affine pose per pair; read during recording only
     const LabelMap* labels = nullptr;                   ///< for the outputs contacts (optional) and labels
     /// Poses on the device instead of world_from_object; needs a detector with devicePoses. A pose that is not finite,
-    /// or whose last row is not 0 0 0 1, has the count 0 and the exactness Refused, and is undecided if certified.
+    /// or whose last row is not 0 0 0 1, has the count 0 and the exactness Refused. If certified, it is undecided.
     const PoseBuffer* poses = nullptr;
     std::optional<std::uint32_t> poseCount = std::nullopt; ///< number of `poses`, from the first; empty: all
 
@@ -68,7 +67,7 @@ struct BatchItem {
 
 /// The pairs of one submission: the items in order, each with its poses in order.
 struct Batch {
-    std::span<const BatchItem> items{};   ///< any number; results have their order
+    std::span<const BatchItem> items{};   ///< any number; the results have the same order
     View view{};                          ///< ignored by projections without a camera
     double threshold = kDefaultThreshold; ///< 0..1
 };
@@ -76,8 +75,8 @@ struct Batch {
 /// Default capacity of the list of contacts.
 inline constexpr std::uint32_t kDefaultContactRoom = 1U << 16U;
 
-/// Capacity for the outputs of a detector, over all pairs of a batch: at least 1 for its outputs, ignored for others.
-/// The bounds have a capacity of maxPairs.
+/// Capacity for the outputs of a detector, over all pairs of a batch: at least 1 for each of its outputs, ignored for
+/// other outputs. The bounds have a capacity of maxPairs.
 struct OutputRoom {
     std::uint64_t triangles = 0;                  ///< sum of the triangles of the pairs' meshes
     std::uint64_t labels = 0;                     ///< sum of the labels of the pairs' label maps
@@ -93,10 +92,10 @@ struct BufferRange {
 
 /// Capacity and options of Results, fixed for their life.
 struct ResultsDesc {
-    std::uint32_t maxPairs = 1;    ///< pairs of the largest batch
+    std::uint32_t maxPairs = 1;    ///< maximum pairs per batch
     bool readBack = true;          ///< keeps a host-visible copy for cmdReadBack() and read()
     bool timestamps = false;       ///< cmdDetect() writes timestamps around its work, for gpuMilliseconds()
-    std::uint32_t queueFamily = 0; ///< with timestamps: family of the executing queue; refused if it has none
+    std::uint32_t queueFamily = 0; ///< with timestamps: family of the executing queue; refused if the family has none
     OutputRoom room{};             ///< capacity for the detector's outputs
     /// Certified detectors: maximum clusters of 64 triangles, once per pair, in a dispatch; 16 to 262144. A larger
     /// batch takes more dispatches. Each cluster takes 721 bytes of device memory. 0: 2048 to 16384 by maxPairs; more
@@ -104,15 +103,15 @@ struct ResultsDesc {
     /// maxComputeWorkGroupCount (16384 per 65535 along x) and maxStorageBufferRange. Reduce it if the driver resets the
     /// GPU during long dispatches.
     ///
-    /// A dispatch tests at most 2^16 bricks and cells of large triangles per cluster, and 3.5e9 in total, but never
-    /// divides a cluster of one pair. If the host does not know the vertices (wrapped mesh, Mesh::cmdCopy()), only the
-    /// number of clusters is bounded. Huge triangles of such a mesh beyond the device's own bound are undecided
-    /// (docs/engine.md, Dispatch size limits). No other answer depends on this number.
+    /// A dispatch tests at most 2^16 bricks and cells of large triangles per cluster, and 3.5e9 in total. A dispatch
+    /// never divides a cluster of one pair. If the host does not know the vertices (wrapped mesh, Mesh::cmdCopy()),
+    /// only the number of clusters is bounded. Huge triangles of such a mesh beyond the device's own bound are
+    /// undecided (docs/engine.md, Dispatch size limits). No other answer depends on this number.
     std::uint32_t clustersAtOnce = 0;
     /// Passes the host's poses through mapped memory of the Results, 248 bytes per pair, instead of the command buffer.
     /// Recording thousands of pairs is then much faster if the driver is slow to write command buffers (NVIDIA's), and
-    /// faster still with devicePoses. In exchange, record a batch only when the submission of the previous one has
-    /// completed, and do not submit that one again. A ring has Results for each frame in flight. Irrelevant for poses
+    /// faster still with devicePoses. In exchange, record a batch only after the submission of the previous batch has
+    /// completed, and do not submit that batch again. A ring has Results for each frame in flight. Irrelevant for poses
     /// on the device.
     bool staged = false;
     /// Caller's range for the PairResults, at least maxPairs * sizeof(PairResult) bytes of a buffer with the usage
@@ -122,23 +121,23 @@ struct ResultsDesc {
     BufferRange into{};
 };
 
-/// Returns the bytes from the PairResults of one frame of a ring to those of the next, for ResultsDesc::into: a
-/// multiple of 256, a valid descriptor offset on every device.
+/// Returns the bytes from the PairResults of one frame of a ring to the next frame, for ResultsDesc::into: a multiple
+/// of 256, a valid descriptor offset on every device.
 [[nodiscard]] constexpr VkDeviceSize resultBytes(std::uint32_t maxPairs) noexcept {
     constexpr VkDeviceSize kAlignment = 256;
     return (VkDeviceSize{maxPairs} * sizeof(PairResult) + kAlignment - 1) / kAlignment * kAlignment;
 }
 
 /// Answers of one batch in flight: a device buffer of PairResult, and working memory. A second cmdDetect() on the same
-/// queue waits for the first one and replaces its answers. On another queue, a semaphore or fence of yours must order
-/// them. With ResultsDesc::staged, record the second one after the first one has completed.
+/// queue waits for the first one and replaces its answers. On another queue, order the two by a semaphore or fence.
+/// With ResultsDesc::staged, record the second one after the first one has completed.
 /// Thread-safety: none; one thread at a time.
 class Results {
   public:
-    /// Allocates the buffers for batches of a detector. Other detectors of its Context may use them, too, if both are
-    /// certified or both are not, and it has their outputs. Refuses zero pairs, more pairs than the device's limits
-    /// allow (LimitExceeded, with the limit), a capacity of 0 for an output of the detector, timestamps on a queue
-    /// family without them, and an `into` that is too small or misaligned.
+    /// Allocates the buffers for batches of a detector. Other detectors of its Context may also use the Results if both
+    /// are certified or both are not, and `detector` has their outputs. Refuses zero pairs, more pairs than the
+    /// device's limits allow (LimitExceeded, with the limit), and a capacity of 0 for an output of the detector.
+    /// Refuses timestamps on a queue family without them, and an `into` that is too small or misaligned.
     [[nodiscard]] VOXTACT_API static Result<Results> create(const Detector& detector, const ResultsDesc& desc);
     VOXTACT_API Results(Results&&) noexcept;
     VOXTACT_API Results& operator=(Results&&) noexcept;
@@ -156,7 +155,7 @@ class Results {
 
     /// The following functions return the ranges of the outputs, for the next pass. Ranges of outputs that the detector
     /// of the last recorded batch lacks hold nothing useful. All are in one buffer with the usage STORAGE_BUFFER |
-    /// TRANSFER_SRC | TRANSFER_DST, are visible to readers when pairResults() are, and have the size of their capacity.
+    /// TRANSFER_SRC | TRANSFER_DST, become visible to readers with pairResults(), and have the size of their capacity.
     /// Offsets are multiples of 256. Pairs follow each other in order.
     ///
     /// Returns one uint per triangle of each pair: its passing fragments.
@@ -178,15 +177,15 @@ class Results {
     ///   leaves   the host copy readable once the submission is complete
     ///   queries  not affected; bound state: none is lost
     VOXTACT_API Result<void> cmdReadBack(VkCommandBuffer commandBuffer);
-    /// Returns the host copy of a completed submission; NotReady if the copy was seen not to have executed. Valid until
-    /// the next cmdReadBack() executes, or the Results end.
+    /// Returns the host copy of a completed submission; NotReady if the copy visibly has not executed. Valid until the
+    /// next cmdReadBack() executes, or the Results are destroyed.
     [[nodiscard]] VOXTACT_API Result<std::span<const PairResult>> read();
     /// Unpacks the outputs of the last recorded batch: all of a BatchAnswer except its pairs and times. Outputs that
-    /// the detector lacks are empty. Expects what read() expects.
+    /// the detector lacks are empty. Like read(), expects a completed submission.
     [[nodiscard]] VOXTACT_API Result<void> readOutputs(BatchAnswer& answer);
     /// Returns true if the detector of the last recorded batch has CertifiedDesc::counters.
     [[nodiscard]] VOXTACT_API bool counted() const noexcept;
-    /// Returns the counters of the certified passes. Expects what read() expects; NotReady unless counted().
+    /// Returns the counters of the certified passes of a completed submission; NotReady unless counted().
     [[nodiscard]] VOXTACT_API Result<CertifiedCounters> counters();
     /// Returns the device time of cmdDetect()'s commands after a completed submission, with `timestamps`; else
     /// NotReady. 0 if the clock ran backwards.
@@ -204,18 +203,19 @@ class Results {
 /// Thread-safety: none; one thread at a time.
 class ResultRing {
   public:
-    /// Creates `frames` slots, 1 to 4096. Refuses what Results::create() refuses. With ResultsDesc::into, the results
-    /// of a frame begin resultBytes(maxPairs) * (frame modulo frames) after its offset.
+    /// Creates `frames` slots, 1 to 4096. Refuses options that Results::create() refuses. With ResultsDesc::into, the
+    /// results of a frame begin resultBytes(maxPairs) * (frame modulo frames) bytes after `into.offset`.
     [[nodiscard]] VOXTACT_API static Result<ResultRing> create(const Detector& detector, std::uint32_t frames,
                                                                const ResultsDesc& desc);
 
     /// Returns the number of slots.
     [[nodiscard]] std::uint32_t frames() const noexcept { return static_cast<std::uint32_t>(slots_.size()); }
     /// Claims the slot of `frame` for recording. Expects that frame `frame - frames()` has completed. The slot is
-    /// readable after a recorded detection and read-back. Frames ascend; refuses a frame older than its slot's.
+    /// readable after a recorded detection and read-back. Frames ascend; refuses a frame older than the frame of its
+    /// slot.
     [[nodiscard]] VOXTACT_API Result<Results*> begin(std::uint64_t frame);
     /// Returns the slot of a completed frame, for its counters and times. NotReady if a later frame has claimed the
-    /// slot, or no frame has. Valid until the ring ends; belongs to the next frame from its begin() on.
+    /// slot, or no frame has. Valid until the ring is destroyed; belongs to the next frame from its begin() on.
     [[nodiscard]] VOXTACT_API Result<Results*> results(std::uint64_t frame);
     /// Calls Results::read() of the slot of a completed frame.
     [[nodiscard]] VOXTACT_API Result<std::span<const PairResult>> read(std::uint64_t frame);
@@ -235,11 +235,11 @@ class ResultRing {
 /// Results.
 class Detector {
   public:
-    /// Creates a certified detector. Unsupported, with the missing feature or limit, if the device cannot run it. The
-    /// outputs need five bound descriptor sets (maxBoundDescriptorSets).
+    /// Creates a certified detector. Fails with Unsupported if the device cannot run the detector; the error names the
+    /// missing feature or limit. The outputs need five bound descriptor sets (maxBoundDescriptorSets).
     [[nodiscard]] VOXTACT_API static Result<Detector> certified(const Context& context, const CertifiedDesc& desc = {});
-    /// Creates a detector that counts fragments. Unsupported like certified(). With a rasterising method, the outputs
-    /// also need fragmentStoresAndAtomics and geometryShader.
+    /// Creates a detector that counts fragments. Fails like certified(). With a rasterising method, the outputs also
+    /// need fragmentStoresAndAtomics and geometryShader.
     [[nodiscard]] VOXTACT_API static Result<Detector> raster(const Context& context, const RasterDesc& desc);
     /// Calls certified() or raster().
     [[nodiscard]] VOXTACT_API static Result<Detector> create(const Context& context, const DetectorDesc& desc);
@@ -253,27 +253,27 @@ class Detector {
     ///
     ///   call it          outside a render pass, in a primary command buffer, on a queue with graphics, or, for
     ///                    the method compute, on one with compute, with or without graphics
-    ///   expects          volume, transfer function and mesh readable as cmdUpload() leaves them, wrapped ones in the
-    ///                    layout that was given and made visible to VERTEX_INPUT / FRAGMENT_SHADER (for the projection
+    ///   expects          volume, transfer function and mesh readable as cmdUpload() leaves them; wrapped objects in
+    ///                    the given layout and visible to VERTEX_INPUT / FRAGMENT_SHADER (for the projection
     ///                    dominant-axis: to VERTEX_SHADER / FRAGMENT_SHADER, for the method compute: to
-    ///                    COMPUTE_SHADER) by the caller; a buffer of poses made visible to COMPUTE_SHADER; an earlier
-    ///                    use of the same Results in this queue may be in flight: the reads that cmdReadBack() and
-    ///                    compute or fragment shaders make of pairResults() are waited for
+    ///                    COMPUTE_SHADER); a buffer of poses visible to COMPUTE_SHADER. An earlier use of the
+    ///                    same Results in this queue may be in flight: the commands wait for its reads of
+    ///                    pairResults(), by cmdReadBack() and by compute and fragment shaders
     ///   leaves           Results::pairResults() available and visible to TRANSFER read, and to shader reads in all
     ///                    stages
     ///   queries          no occlusion query may be active
     ///   bound state      lost: graphics pipeline, descriptor sets 0..2 of the graphics bind point (0..3 with
     ///                    dominant-axis, 0..4 with outputs), push constants, vertex binding 0, index buffer, dynamic
-    ///                    viewport and scissor; for the method compute instead, and with devicePoses as well: compute
+    ///                    viewport and scissor. The method compute loses instead, and devicePoses also: compute
     ///                    pipeline, descriptor sets 0..3 of the compute bind point (0..4 with outputs), push
     ///                    constants
     ///
-    /// Refuses Results whose detector is not of the same kind or lacks an output, batches beyond the capacity of the
-    /// Results (except the list of contacts, which is cut), and, with the output labels, items without a label map.
-    /// After an error, do not submit the command buffer.
+    /// Refuses Results whose detector is of another kind or lacks an output, and batches beyond their capacity (except
+    /// the list of contacts, which is cut). With the output labels, refuses items without a label map. After an error,
+    /// do not submit the command buffer.
     VOXTACT_API Result<void> cmdDetect(VkCommandBuffer commandBuffer, const Batch& batch, Results& results) const;
 
-    /// Returns its options.
+    /// Returns the options of the detector.
     [[nodiscard]] VOXTACT_API const DetectorDesc& desc() const noexcept;
     /// Returns the variant that Boundary::Auto selects for an item at a threshold: Range or Clamp.
     [[nodiscard]] VOXTACT_API Boundary boundaryFor(const BatchItem& item, double threshold) const noexcept;
@@ -288,13 +288,13 @@ class Detector {
 };
 
 /// Records a batch, submits it on the caller's queue, waits, and reads the answers. Keeps its command buffer, fence and
-/// Results for the next call, and replaces them by larger ones when needed. On a GPU with doubles, a computing method
-/// makes the pairs of 256 host poses or more on the device, as with CertifiedDesc::devicePoses. Thread-safety: none;
-/// one thread at a time.
+/// Results for the next call, and enlarges the Results when needed. On a GPU with doubles, the method compute creates
+/// the pairs of 256 or more host poses on the device, as with CertifiedDesc::devicePoses. Thread-safety: none; one
+/// thread at a time.
 class BlockingDetector {
   public:
-    /// Creates one for a queue with graphics or, for the method compute, with compute. A list of contacts is cut beyond
-    /// `maxContacts`.
+    /// Creates a detector for a queue with graphics or, for the method compute, with compute. Cuts a list of contacts
+    /// beyond `maxContacts`.
     [[nodiscard]] VOXTACT_API static Result<BlockingDetector> create(const Context& context, const DetectorDesc& desc,
                                                                      const QueueAccess& queue,
                                                                      std::uint32_t maxContacts = kDefaultContactRoom);
@@ -302,8 +302,8 @@ class BlockingDetector {
     VOXTACT_API BlockingDetector& operator=(BlockingDetector&&) noexcept;
     VOXTACT_API ~BlockingDetector();
 
-    /// Returns the answers for every pair of the batch. Blocks. Refuses what Detector::cmdDetect() refuses. After an
-    /// error, nothing of the batch is in flight, and the next call works unless the device is lost.
+    /// Returns the answers for every pair of the batch. Blocks. Refuses batches that Detector::cmdDetect() refuses.
+    /// After an error, nothing of the batch is in flight, and the next call works unless the device is lost.
     [[nodiscard]] VOXTACT_API Result<BatchAnswer> detect(const Batch& batch);
     /// Returns the recording detector, valid as long as this object.
     [[nodiscard]] VOXTACT_API const Detector& detector() const noexcept;
@@ -325,7 +325,7 @@ struct SelfTestVerdict {
 /// Renders a known number of fragments by each of `methods` (empty: all of the Context): a full viewport in an opaque,
 /// a transparent and a half-opaque volume. For methods whose default filter is Exact, also compares each operation that
 /// exactness needs (floats, conversions, 32- and 64-bit integers, additions in a work group, texels) with the host, bit
-/// for bit, on 10^5 inputs. Blocks for some ten milliseconds and the creation of pipelines. A failing method is not
+/// for bit, on 10^5 inputs. Blocks for tens of milliseconds, plus the creation of pipelines. A failing method is not
 /// trusted; only a lost device fails the call.
 [[nodiscard]] VOXTACT_API Result<std::vector<SelfTestVerdict>>
 selfTest(const Context& context, const QueueAccess& queue, std::span<const CountingMethod> methods = {});

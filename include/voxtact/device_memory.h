@@ -15,38 +15,38 @@ extern "C" {
 
 /// A buffer or an image that needs memory.
 typedef struct vxt_memory_request {
-    VkMemoryRequirements requirements; ///< the driver's: size, alignment and bits of the memory types that are allowed
+    VkMemoryRequirements requirements; ///< from the driver: size, alignment, bits of the allowed memory types
     VkMemoryPropertyFlags required;    ///< flags that the memory type must have: 0, or HOST_VISIBLE and HOST_COHERENT
-    VkMemoryPropertyFlags preferred;   ///< flags that it should have as well: DEVICE_LOCAL, HOST_CACHED or 0
-    VkBuffer buffer;                   ///< created and not bound; null for an image. For a dedicated allocation
-    VkImage image;                     ///< created and not bound; null for a buffer
-    const char* name;                  ///< the object's, for debugging; valid during the call
+    VkMemoryPropertyFlags preferred;   ///< flags that it should also have: DEVICE_LOCAL, HOST_CACHED or 0
+    VkBuffer buffer;                   ///< for a dedicated allocation: created, not bound; null for an image
+    VkImage image;                     ///< created, not bound; null for a buffer
+    const char* name;                  ///< name of the object, for debugging; valid during the call
 } vxt_memory_request;
 
-/// The memory of one buffer or image, which voxtact binds to it.
+/// Memory that voxtact binds to one buffer or image.
 typedef struct vxt_device_memory {
     VkDeviceMemory memory; ///< never null
-    VkDeviceSize offset;   ///< from its beginning; a multiple of the alignment
-    void* mapped;          ///< where HOST_VISIBLE is required: the host address of `offset`, valid until release()
-    void* handle;          ///< the caller's, for release(); may be null
+    VkDeviceSize offset;   ///< from the beginning of `memory`; a multiple of the alignment
+    void* mapped;          ///< if HOST_VISIBLE is required: the host address of `offset`, valid until release()
+    void* handle;          ///< private to the caller, for release(); may be null
 } vxt_device_memory;
 
-/// The caller's allocator. Both functions or none.
+/// The caller's allocator. Set both functions or neither.
 ///
-/// Threads: called from every thread that makes or ends objects of voxtact, by several at once. They must not call
-/// voxtact.
-/// Lifetime: `user` must outlive all that was made with the Context; objects that outlive the Context still release
+/// Threads: called from any thread that creates or destroys objects of voxtact, also concurrently. Neither function may
+/// call voxtact.
+/// Lifetime: `user` must outlive all objects created with the Context; objects that outlive the Context still release
 /// their memory.
-/// Errors: a result of allocate() other than VK_SUCCESS is that of voxtact's call, which leaves nothing behind:
-/// VK_ERROR_OUT_OF_DEVICE_MEMORY is ErrorCode::OutOfMemory. Neither function may throw.
+/// Errors: if allocate() fails, voxtact's call creates nothing and returns its VkResult: VK_ERROR_OUT_OF_DEVICE_MEMORY
+/// is ErrorCode::OutOfMemory. Neither function may throw.
 typedef struct vxt_memory_callbacks {
-    /// Fills in `memory` for one buffer or image that is alone in its range. Bound to buffers and optimally tiled
-    /// images: bufferImageGranularity is the allocator's to keep.
+    /// Fills in `memory` for one buffer or optimally tiled image, which is alone in its range. The allocator must
+    /// respect bufferImageGranularity.
     VkResult (*allocate)(void* user, const vxt_memory_request* request, vxt_device_memory* memory);
-    /// Takes back what allocate() gave, once for each success, when the buffer or image has been destroyed. Not called
-    /// any more after a submission that could not be waited for: the device may still use everything.
+    /// Releases the memory of one successful allocate(), after the buffer or image is destroyed. Not called after a
+    /// failed wait for a submission: the device may still use all memory.
     void (*release)(void* user, const vxt_device_memory* memory);
-    void* user; ///< the first argument of both
+    void* user; ///< first argument of both functions
 } vxt_memory_callbacks;
 
 #ifdef __cplusplus

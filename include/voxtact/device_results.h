@@ -14,12 +14,12 @@ namespace voxtact {
 #define VOXTACT_TOTAL uvec2 // low word, high word
 #endif
 
-/// The answer for one pair, 24 bytes, with the same layout for every counting method. In GLSL declare the buffer with
+/// The answer for one pair, 24 bytes, with the same layout for every counting method. In GLSL, declare the buffer with
 /// std430. The pair touches if countLow or countHigh is not zero. The projection `certified` counts a triangle once for
-/// each voxel cell in which it certainly has an opaque point; a pair whose count is zero may still touch if
+/// each voxel cell in which it certainly has an opaque point. A pair whose count is zero may still touch if
 /// VOXTACT_HOW_UNDECIDED(how) is not zero.
 struct PairResult {
-    VOXTACT_UINT countLow;  ///< passing fragments, low 32 bits; by `query-any` and early exit zero or not
+    VOXTACT_UINT countLow;  ///< passing fragments, low 32 bits; by `query-any` or early exit: zero or not
     VOXTACT_UINT countHigh; ///< passing fragments, high 32 bits
     VOXTACT_UINT pair;      ///< index of the pair in its batch
     VOXTACT_UINT item;      ///< index of the BatchItem of the pair
@@ -43,7 +43,7 @@ struct ContactResult {
     float x;               ///< world, mm
     float y;               ///< world, mm
     float z;               ///< world, mm
-    float nx;              ///< unit vector, or zero
+    float nx;              ///< normal, unit vector or zero
     float ny;              ///< normal, unit vector or zero
     float nz;              ///< normal, unit vector or zero
     float depth;           ///< mm
@@ -55,28 +55,28 @@ struct ContactResult {
 };
 
 /// Counters of the passes of the projection `certified` by `compute` for a batch; 152 bytes, std430. The manual
-/// describes the passes in "The certified engine on a device". A peak is that of the round with the most.
+/// describes the passes in "The certified engine on a device". A peak is the maximum over all rounds.
 struct CertifiedCounters {
-    VOXTACT_TOTAL clusters;     ///< clusters of 64 triangles that were tested, once for each pair
-    VOXTACT_TOTAL clustersKept; ///< of these, those that may touch
+    VOXTACT_TOTAL clusters;     ///< tested clusters of 64 triangles, counted once per pair
+    VOXTACT_TOTAL clustersKept; ///< tested clusters that may touch
     VOXTACT_TOTAL runsKept;     ///< runs of 16 triangles that may touch
     VOXTACT_TOTAL largeParts;   ///< shares of triangles with more than 27 cells
-    VOXTACT_TOTAL bricksSeen;   ///< bricks of these triangles that were tested
-    VOXTACT_TOTAL cellsSeen;    ///< cells of all triangles that were tested, in bricks that may be opaque
-    VOXTACT_TOTAL cellsListed;  ///< of these, cells that need a decision
-    VOXTACT_TOTAL cellsCertain; ///< of cellsSeen, counted without a decision: opaque, a triangle clearly inside
-    VOXTACT_TOTAL cellsDecided; ///< cells that a lane decided; others: the pair touches anyway, or no room
+    VOXTACT_TOTAL bricksSeen;   ///< tested bricks of these triangles
+    VOXTACT_TOTAL cellsSeen;    ///< tested cells of all triangles, in bricks that may be opaque
+    VOXTACT_TOTAL cellsListed;  ///< of cellsSeen: cells that need a decision
+    VOXTACT_TOTAL cellsCertain; ///< of cellsSeen: opaque, with a triangle clearly inside; counted without a decision
+    VOXTACT_TOTAL cellsDecided; ///< cells that a lane decided; others: the pair already touches, or no room
     VOXTACT_TOTAL lanes;        ///< lanes dispatched for these cells
-    VOXTACT_TOTAL cellsOpen;    ///< of these, cells that single precision left undecided
+    VOXTACT_TOTAL cellsOpen;    ///< of cellsDecided: cells that single precision left undecided
     VOXTACT_TOTAL left;         ///< shares of work groups for which a queue had no room
-    VOXTACT_TOTAL bricksLeft;   ///< bricks tested for these
-    VOXTACT_TOTAL cellsLeft;    ///< cells tested for these, and decided if needed
+    VOXTACT_TOTAL bricksLeft;   ///< bricks tested for these shares
+    VOXTACT_TOTAL cellsLeft;    ///< cells tested for these shares, and decided if needed
     VOXTACT_UINT rounds;        ///< dispatches of each pass
     VOXTACT_UINT room;          ///< maximum number of clusters in a round: ResultsDesc::clustersAtOnce
     VOXTACT_UINT mostClusters;  ///< peak of clustersKept
     VOXTACT_UINT mostRuns;      ///< peak of runsKept
-    VOXTACT_UINT mostParts;     ///< peak of largeParts, including those without room
-    VOXTACT_UINT mostCells;     ///< peak of cellsListed, including those without room
+    VOXTACT_UINT mostParts;     ///< peak of largeParts, including parts without room
+    VOXTACT_UINT mostCells;     ///< peak of cellsListed, including cells without room
     VOXTACT_UINT mostOpen;      ///< peak of cellsOpen
     VOXTACT_UINT mostLeft;      ///< peak of left
     VOXTACT_UINT mostLooks;     ///< peak of bricksSeen and cellsSeen together

@@ -28,27 +28,27 @@ namespace voxtact {
 /// Kind of an error. `Error::text` names the argument, the reason and the fix.
 enum class ErrorCode : std::uint32_t {
     InvalidArgument = 1, ///< an argument that no device could accept
-    Unsupported,         ///< the device, or the features enabled on it, cannot do this
+    Unsupported,         ///< not supported by the device or its enabled features
     LimitExceeded,       ///< a limit of the device, named in the text with its size
     OutOfMemory,         ///< host or device memory
     DeviceLost,          ///< sticky: every later call on the same Context returns it
     Vulkan,              ///< another VkResult, in `Error::vkResult`
     File,                ///< a file cannot be read or written
-    Format,              ///< a file can be read, but what it holds cannot be used
+    Format,              ///< a file can be read, but its contents cannot be used
     NotReady,            ///< the result does not exist yet, or was replaced
     Internal,            ///< a bug in voxtact
-    Cancelled,           ///< the caller ended the call early: cpu::Batch::cancel, a progress function
+    Cancelled,           ///< the caller cancelled the call: cpu::Batch::cancel, a progress function
 };
 
 /// An error. One line of text, without a final full stop or newline.
 struct Error {
     ErrorCode code = ErrorCode::Internal; ///< kind of error
-    std::int32_t vkResult = 0;            ///< the VkResult that caused it; 0 (VK_SUCCESS) if none did
+    std::int32_t vkResult = 0;            ///< the VkResult that caused the error; 0 (VK_SUCCESS): none
     std::string text;                     ///< the argument, the reason and the fix
 };
 
-/// A value or an Error. voxtact throws nothing across its public boundary and returns this instead. Reading the value
-/// of a failed result, or the error of a good one, is undefined: call `ok()` first.
+/// A value or an Error. voxtact throws nothing across its public boundary and returns a Result instead. Reading the
+/// value of a failure, or the error of a success, is undefined: call `ok()` first.
 template <class T> class [[nodiscard]] Result {
   public:
     /// Creates a success.

@@ -24,12 +24,12 @@ enum class CountingMethod : std::uint32_t {
 enum class Projection : std::uint32_t {
     View = 0,    ///< the paper's method: the caller's camera and viewport
     TwoView = 1, ///< the paper's workaround for triangles seen edge-on: the view, and its view volume seen along its x
-    /// Projects each triangle along its own dominant axis in voxel space, onto a grid of the voxels' size or finer: no
-    /// camera. The axis is that of the largest component of the triangle's normal, the first of equal ones; pixel
-    /// centres are at the centres of voxels, or of their samples; depth clips nothing. The viewport is the square of
+    /// Needs no camera: projects each triangle along its dominant axis in voxel space, onto a grid of the voxels' size
+    /// or finer. The axis is that of the largest component of the triangle's normal, the first of equal ones. Pixel
+    /// centres lie at the centres of voxels, or of their samples; depth clips nothing. The viewport is a square with
     /// the volume's longest side, also for Boundary::Clamp.
     DominantAxis = 2,
-    /// Decides every voxel cell that a triangle passes through with bounds: never misses a contact. No camera
+    /// Needs no camera: decides every voxel cell that a triangle crosses, with bounds, and never misses a contact.
     Certified = 3,
 };
 
@@ -44,7 +44,7 @@ inline constexpr double kDefaultMaxDepth = 10;
 
 /// How the image is sampled.
 enum class Filter : std::uint32_t {
-    Hardware = 0, ///< the device's sampler (8 fraction bits of weight on much hardware)
+    Hardware = 0, ///< the device's sampler (on much hardware, weights have 8 fraction bits)
     Exact = 1,    ///< fp32 in a fixed order (src/exact/exact.h): the same bits on every device and on the host
 };
 
@@ -85,11 +85,11 @@ enum class Exactness : std::uint32_t {
 /// True if the projection uses the batch's View.
 [[nodiscard]] VOXTACT_API bool usesView(Projection projection) noexcept;
 
-/// Returns Exact for the methods that give the same count on every device with it (compute, cpu), Hardware for the
+/// Returns Exact for methods that give the same count on every device with Exact (compute, cpu), and Hardware for the
 /// others.
 [[nodiscard]] VOXTACT_API Filter defaultFilter(CountingMethod method) noexcept;
 /// Returns the best exactness of a method: LowerBound for QueryAny. An undecided fragment (Certified) or an early exit
-/// make a count a lower bound, too; PairAnswer::exactness is the result.
+/// also makes a count a lower bound; PairAnswer::exactness has the result.
 [[nodiscard]] VOXTACT_API Exactness exactness(CountingMethod method) noexcept;
 
 } // namespace voxtact

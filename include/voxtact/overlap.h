@@ -11,13 +11,13 @@
 
 /// The opaque volume inside a closed mesh: plain types, the same for every engine.
 ///
-/// A point is inside the solid of a mesh if the winding number of its surface is not 0 (Jacobson et al., "Robust
+/// A point is inside the solid of a mesh if the winding number of the surface there is not 0 (Jacobson et al., "Robust
 /// inside-outside segmentation using generalized winding numbers", 2013): overlapping closed parts are a union, and the
-/// orientation does not matter. A mesh with holes has no inside and is refused, unless they are filled first
-/// (fillHoles()). The overlap of a pair is the volume, in world mm^3, of the points inside the solid that are opaque. A
-/// point is opaque if it lies in the volume's closed box, out to the outer faces of the outermost voxels, and the
-/// opacity of the trilinear interpolant reaches the threshold there. Bounds hold for the given vertices and include all
-/// rounding. If triangles of the mesh intersect, their intersections are rounded, and no proof bounds that rounding.
+/// orientation does not matter. A mesh with holes has no inside and is refused; fillHoles() fills the holes. The
+/// overlap of a pair is the volume of the opaque points inside the solid, in world mm^3. A point is opaque if it lies
+/// in the volume's closed box and the opacity of the trilinear interpolant there reaches the threshold. The box extends
+/// to the outer faces of the outermost voxels. Bounds hold for the given vertices and include all rounding. If
+/// triangles of the mesh intersect, the intersections are rounded, and no proof bounds this rounding.
 namespace voxtact {
 
 /// Default tolerance, mm^3: maximum upper - lower.
@@ -29,50 +29,50 @@ inline constexpr std::size_t kMaxBandLimits = 64;
 enum class Containment : std::uint32_t {
     None,      ///< no point is inside: proven
     Some,      ///< one point is inside and another is not: proven
-    All,       ///< every point is inside, and there is one: proven
-    Undecided, ///< rounding decides, or the iteration limit was reached
+    All,       ///< every point is inside, and at least one exists: proven
+    Undecided, ///< not proven, because of rounding or the iteration limit
 };
 /// Returns "none", "some", "all" or "undecided", with static lifetime.
 [[nodiscard]] VOXTACT_API const char* toString(Containment containment) noexcept;
 
 /// The overlap of one pair.
 struct PairOverlap {
-    std::uint32_t pair = 0; ///< number of the pair in its batch
-    std::uint32_t item = 0; ///< number of the BatchItem that the pair came from
-    std::uint32_t pose = 0; ///< number of the pose within that item
+    std::uint32_t pair = 0; ///< index of the pair in its batch
+    std::uint32_t item = 0; ///< index of the BatchItem of the pair
+    std::uint32_t pose = 0; ///< index of the pose in that item
     Bounds bounds;          ///< mm^3 of the opaque region inside the solid
     Bounds solid;           ///< mm^3 of the solid at its pose, inside and outside the image
     Containment inside{};   ///< share of the image's opaque region inside the solid
     StopReason end{};       ///< why the search stopped for `bounds`
 };
 
-/// The volume inside the solid of one pair in which the image's value is in one band, opaque or not. Band i of n limits
-/// ranges from limit i-1 to below limit i; the first band has no lower limit, and the last, number n, no upper one. All
-/// bands together are the part of the solid in the image.
+/// The volume inside the solid of one pair with image values in one band, opaque or not. With n limits, band i ranges
+/// from limit i-1 to below limit i. Band 0 has no lower limit, and band n no upper limit. Together, the bands fill the
+/// part of the solid inside the image.
 struct BandOverlap {
-    std::uint32_t pair = 0; ///< number of the pair in its batch
-    std::uint32_t item = 0; ///< number of the BatchItem that the pair came from
-    std::uint32_t pose = 0; ///< number of the pose within that item
+    std::uint32_t pair = 0; ///< index of the pair in its batch
+    std::uint32_t item = 0; ///< index of the BatchItem of the pair
+    std::uint32_t pose = 0; ///< index of the pose in that item
     std::uint32_t band = 0; ///< from 0 to the number of limits
     Bounds bounds;          ///< mm^3
-    StopReason end{};       ///< why they are no nearer to each other
+    StopReason end{};       ///< why the search stopped
 };
 
 /// The overlap of one pair with the opaque part of a label: inside the boxes around the voxel centres for which
-/// labelAt() returns the label. The overlaps with all labels add up to that of the pair.
+/// labelAt() returns the label. The overlaps with all labels add up to the overlap of the pair.
 struct LabelOverlap {
-    std::uint32_t pair = 0; ///< number of the pair in its batch
-    std::uint32_t item = 0; ///< number of the BatchItem that the pair came from
-    std::uint32_t pose = 0; ///< number of the pose within that item
+    std::uint32_t pair = 0; ///< index of the pair in its batch
+    std::uint32_t item = 0; ///< index of the BatchItem of the pair
+    std::uint32_t pose = 0; ///< index of the pose in that item
     std::int32_t label = 0; ///< as in LabelData::values
     Bounds bounds;          ///< mm^3
     Containment inside{};   ///< share of the opaque part of that label inside the solid
-    StopReason end{};       ///< why `bounds` are no nearer to each other
+    StopReason end{};       ///< why the search stopped for `bounds`
 };
 
 /// How much of the opaque region is inside a closed mesh, and of which values?
 struct Overlap {
-    double tolerance = kDefaultOverlapTolerance; ///< mm^3, from 1e-9 on: stop when upper - lower is at most this
+    double tolerance = kDefaultOverlapTolerance; ///< mm^3, at least 1e-9: stop when upper - lower is at most this
     std::vector<double> bandLimits{};            ///< ascending, finite, at most kMaxBandLimits; empty: no bands
     std::vector<std::int32_t> labels{};          ///< labels to measure in; every item needs labels on its volume's grid
     std::uint64_t maxSteps = 1U << 18U;          ///< iteration limit per sum, then the current bounds; at least 1
@@ -83,7 +83,7 @@ struct OverlapAnswer {
     std::vector<PairOverlap> pairs;   ///< in the order of the batch
     std::vector<BandOverlap> bands;   ///< by pair, then by band; empty without bands
     std::vector<LabelOverlap> labels; ///< by pair, then in the requested order
-    double wallMilliseconds = 0;      ///< of the whole call
+    double wallMilliseconds = 0;      ///< duration of the whole call
 };
 
 /// Whether a mesh has an inside.
@@ -96,8 +96,8 @@ struct SolidFacts {
     /// Signed volume of the surface, object units^3, without bounds; meaningless for a mesh with holes.
     double signedVolume = 0;
 };
-/// Finds holes: directed edges that do not cancel out. Identifies vertices by their coordinates, so a mesh whose
-/// triangles share no vertices (STL) may be closed. Refuses what checkMesh() refuses. O(triangles log triangles).
+/// Finds holes: directed edges that do not cancel out. Identifies vertices by coordinates, so a mesh without shared
+/// vertices (STL) may be closed. Refuses meshes that checkMesh() refuses. O(triangles log triangles).
 [[nodiscard]] VOXTACT_API Result<SolidFacts> checkSolid(const MeshView& mesh);
 /// Returns the error text of a mesh with holes, with their number and size; empty for a closed mesh.
 [[nodiscard]] VOXTACT_API std::string holesText(const SolidFacts& facts);
@@ -108,7 +108,7 @@ struct FilledMesh {
     std::uint32_t holes = 0; ///< number of filled holes
     double area = 0;         ///< added area, object units^2
 };
-/// Fills each hole by a fan around the mean of its corners. Refuses what checkMesh() refuses.
+/// Fills each hole by a fan around the mean of its corners. Refuses meshes that checkMesh() refuses.
 [[nodiscard]] VOXTACT_API Result<FilledMesh> fillHoles(const MeshView& mesh);
 
 } // namespace voxtact

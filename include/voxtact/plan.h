@@ -36,7 +36,7 @@ inline constexpr double kNearestEntry = 1e-3;
 enum class Safety : std::uint32_t {
     Unsafe,    ///< its distance from an obstacle is at most the margin
     Safe,      ///< its distance from all obstacles exceeds the margin along the whole path
-    Undecided, ///< rounding decides, or the iteration limit was reached
+    Undecided, ///< not proven, because of rounding or the iteration limit
 };
 /// Returns "unsafe", "safe" or "undecided", with static lifetime.
 [[nodiscard]] VOXTACT_API const char* toString(Safety safety) noexcept;
@@ -51,12 +51,12 @@ struct NearestObstacle {
 
 /// One path.
 struct PlannedPath {
-    std::uint32_t entry = 0;                ///< index of its direction
+    std::uint32_t entry = 0;                ///< index of the direction of the path
     Vec3 position{};                        ///< entry point, world mm
     double length = 0;                      ///< mm, from the entry to the target
     std::optional<double> angle;            ///< degrees between the path and the normal of the entry surface
     Safety safety = Safety::Undecided;      ///< for the whole path
-    Bounds clearance;                       ///< distance from the obstacles, mm, for the whole path; 0 if it touches
+    Bounds clearance;                       ///< distance from the obstacles, mm; 0 if the path touches
     StopReason end{};                       ///< why the search stopped
     std::optional<NearestObstacle> nearest; ///< if clearance.upper is finite
 };
@@ -64,10 +64,10 @@ struct PlannedPath {
 /// A triangle between the entries of neighbouring directions, outward counter-clockwise.
 struct EntryTriangle {
     std::array<std::uint32_t, 3> paths{}; ///< indices into PlanAnswer::paths
-    /// Every path from any point of this triangle to the target certainly keeps more than the margin.
+    /// Every path from this triangle to the target certainly keeps more than the margin from the obstacles.
     bool safe = false;
-    /// mm, with Plan::triangleDistances: lower bound of the distance of every path from any point of this triangle; at
-    /// most Plan::maximum.
+    /// mm, with Plan::triangleDistances: lower bound of the distance of every path from this triangle; at most
+    /// Plan::maximum.
     double clearance = 0;
 };
 
@@ -86,10 +86,10 @@ struct PlanAnswer {
 };
 
 /// Returns the labels that a straight line crosses, in order from `from` to `to`, each once, without 0. Uses the voxels
-/// that contain the line (labelAt()); voxels that it only grazes may be missing. If both ends are far away, a line at
-/// an angle to the axes is as precise as the doubles of its ends. Refuses ends that are not finite, or whose voxel
-/// coordinates exceed half of the largest double, and a grid that checkGrid() refuses. Otherwise expects what
-/// makeLabels() returns.
+/// that contain the line (labelAt()); voxels that the line only grazes may be missing. If both ends are far away, a
+/// line at an angle to the axes is as precise as the doubles of its ends. Refuses ends that are not finite, or whose
+/// voxel coordinates exceed half of the largest double, and a grid that checkGrid() refuses. Otherwise expects a map
+/// that makeLabels() returned.
 [[nodiscard]] VOXTACT_API Result<std::vector<std::int32_t>> labelsAlong(const LabelData& labels, const Vec3& from,
                                                                         const Vec3& to);
 

@@ -140,8 +140,8 @@ struct SceneMesh {
     MeshPaint paint{};                   ///< paint on the mesh
     bool clipped = false;                ///< cut by Scene::clipPlanes, like the volume
 };
-/// Returns a SceneMesh::meshColour for each of several meshes, distinct from each other, from tissue, and from the
-/// colours of contacts. The first is the default of SceneMesh; colours repeat after six.
+/// Returns the default SceneMesh::meshColour of the mesh with this index: distinct from other meshes, tissue and
+/// contacts. Index 0 gives the default of SceneMesh; colours repeat after six.
 [[nodiscard]] VOXTACT_API Colour meshColour(std::size_t number) noexcept;
 /// Returns a MeshPaint::through that makes the paint visible: 0.8, or 1 for Discarded, which paints the whole mesh.
 [[nodiscard]] VOXTACT_API double throughFor(Paint paint) noexcept;

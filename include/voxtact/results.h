@@ -27,14 +27,14 @@ struct Outputs {
 
 /// Verdict on a pair.
 enum class Verdict : std::uint32_t {
-    No,        ///< it does not touch: proven
-    Yes,       ///< it touches: proven
-    Undecided, ///< rounding decides, or the iteration limit was reached
+    No,        ///< the pair does not touch: proven
+    Yes,       ///< the pair touches: proven
+    Undecided, ///< not proven, because of rounding or the iteration limit
 };
 /// Returns "no", "yes" or "undecided", with static lifetime.
 [[nodiscard]] VOXTACT_API const char* toString(Verdict verdict) noexcept;
 
-/// Triangle of a witness point inside the mesh of a question with `solid`: it is on no triangle.
+/// WitnessPoint::triangle of a point inside the mesh (questions with `solid`), which is on no triangle.
 inline constexpr std::uint32_t kInsideMesh = 0xffffffffU;
 
 /// A point that proves a yes.
@@ -69,22 +69,22 @@ struct TouchedTriangle {
 struct Contact {
     std::uint32_t pair = 0;     ///< index of the pair in its batch
     std::uint32_t triangle = 0; ///< index of the triangle in the mesh
-    /// World, mm. It lies in an opaque sample up to rounding. Its distance from the triangle is at most a
-    /// hundred-thousandth of a voxel and two of the triangle's size, times the ratio of the grid's largest spacing to
-    /// its smallest, times the condition number of a shearing or scaling pose.
+    /// World, mm. Lies in an opaque sample, up to rounding. The distance from the triangle is at most 1e-5 voxel plus
+    /// 2e-5 of the triangle's size. Multiply this bound by the ratio of the grid's largest spacing to its smallest, and
+    /// by the condition number of a shearing or scaling pose.
     Vec3 position{};
-    /// Unit vector in world space against the gradient of opacity: it points out of the opaque region. The gradient
-    /// uses differences over one voxel to each side, clamped to the image; if they vanish, the step is doubled, up to
-    /// maxDepth. Zero if all of them vanish.
+    /// Unit vector in world space, against the gradient of opacity: points out of the opaque region. The gradient uses
+    /// differences over one voxel to each side, clamped to the image; if they vanish, the step is doubled, up to
+    /// maxDepth. Zero if all differences vanish.
     Vec3 normal{};
     /// Distance in mm along the normal, from the position to the first opacity below the threshold or the image's
-    /// border. The search takes steps of half the smallest spacing and may miss thinner gaps. It takes at most 16,384
-    /// steps; longer distances to maxDepth, or through the image, take longer steps. maxDepth if there is no such
-    /// point, or no normal. The opacity is that of the table, in every projection.
+    /// border. The search takes at most 16,384 steps of half the smallest spacing, and may miss thinner gaps. Longer
+    /// distances to maxDepth, or through the image, take longer steps. maxDepth without such a point or without a
+    /// normal. Uses the opacity of the table in every projection.
     double depth = 0;
-    double value = 0; ///< of the image, in its own units
+    double value = 0; ///< image value, in its own units
     /// Opacity of that value, by Filter::Exact: a passing fragment of Filter::Hardware may be slightly below the
-    /// threshold. In Projection::Certified value and opacity are those of the proof; the opacity is not below the
+    /// threshold. In Projection::Certified, value and opacity come from the proof; the opacity is at least the
     /// threshold (a float).
     double opacity = 0;
     std::int32_t label = 0; ///< label of the nearest voxel of the label map; 0 without a map, and outside it
@@ -104,7 +104,7 @@ struct PairAnswer {
     std::uint32_t pose = 0;  ///< index of the pose in that item
     bool hit = false;        ///< at least one passing fragment: the pair certainly touches
     bool possible = false;   ///< undecided: no passing fragment, but undecided fragments of the projection certified
-    std::uint64_t count = 0; ///< passing fragments; 1 for a hit of a boolean query or an early exit
+    std::uint64_t count = 0; ///< passing fragments; 1 for a touch by a boolean query or an early exit
     Exactness exactness = Exactness::Exact;        ///< meaning of the count
     CountingMethod method = CountingMethod::Query; ///< method that counted
     Projection projection = Projection::View;      ///< projection that made the fragments
@@ -116,7 +116,7 @@ struct PairAnswer {
 /// Merges the counters of two batches: adds totals, keeps the larger peaks.
 [[nodiscard]] VOXTACT_API CertifiedCounters together(const CertifiedCounters& a, const CertifiedCounters& b) noexcept;
 
-/// The answer for a batch: the pairs, and the outputs that the detector's Outputs enable. Others are empty.
+/// The answer for a batch: the pairs, and the outputs that the detector's Outputs enable. Other outputs are empty.
 struct BatchAnswer {
     std::vector<PairAnswer> pairs;               ///< in the order of the batch
     std::vector<TouchedTriangle> triangles;      ///< by pair, then by triangle

@@ -12,14 +12,14 @@
 /// devices and pictures. Terms are those of the C++ headers, which have more detail: vxt_host_volume is
 /// voxtact::cpu::Volume, vxt_volume_view is voxtact::VolumeView.
 ///
-/// Structs: one that begins with `struct_size` can grow. Fill it with zeros, set `struct_size` to its `sizeof`, also
-/// where a function fills it, and set the members that you need:
+/// Structs: a struct that begins with `struct_size` can grow. Fill the struct with zeros, set `struct_size` to its
+/// `sizeof`, also where a function fills it, and set the members that you need:
 /// `vxt_distance question = {.struct_size = sizeof question, .tolerance = 0.1};`. A newer library uses the defaults of
 /// missing members; an older library refuses unknown members that are not zero. All elements of an array have the same
 /// `struct_size`. A struct without `struct_size` never changes.
 ///
-/// Defaults: 0 selects the default of a member; comments state it where it is not 0. Where the number 0 is useful too,
-/// a comment names -0.0, which selects 0. Null options and a null question have all defaults.
+/// Defaults: 0 selects the default of a member; comments state defaults other than 0. Where 0 is also useful, a comment
+/// names -0.0, which selects 0. Null options and a null question select all defaults.
 ///
 /// Values: world space is LPS, in mm. Image values are in the image's own units. A truth value is 0 or not 0. Text is
 /// UTF-8 and ends with a 0. Matrices are 16 doubles, column-major: the element in row r and column c is at [4 * c + r].
@@ -27,14 +27,14 @@
 ///
 /// Errors: functions that can fail return a vxt_result; vxt_last_error() returns the reason. Nothing throws, prints or
 /// aborts. On failure a creating function sets its pointer to null. Without voxtact::io in the build, functions for
-/// files return UNSUPPORTED; without voxtact::render, those for looks and pictures.
+/// files return UNSUPPORTED; without voxtact::render, functions for looks and pictures.
 ///
-/// Pointers: a returned one is valid as long as its object; without an object it has static lifetime. `count` receives
-/// the number of returned elements and may be null. A null object has no elements. `..._destroy()` accepts null.
-/// Arguments are read during the call only, unless their comment says otherwise.
+/// Pointers: a returned pointer is valid as long as its object; without an object, it has static lifetime. `count`
+/// receives the number of returned elements and may be null. A null object has no elements. `..._destroy()` accepts
+/// null. Arguments are read during the call only, unless their comment says otherwise.
 ///
-/// Threads: functions that take an object as const are safe from any thread. All others need the caller's lock for the
-/// objects that they take as not const.
+/// Threads: functions that take an object as const are safe from any thread. All others need the caller's lock on the
+/// objects that they may change.
 
 #if defined(__GNUC__) && defined(VOXTACT_STATIC)
 #define VXT_API
@@ -161,7 +161,7 @@ typedef struct vxt_mesh_facts {
     uint32_t vertices;   ///< number of vertices
     uint32_t triangles;  ///< number of triangles, degenerate ones included
     uint32_t degenerate; ///< triangles whose area is zero in float: allowed; they cover no pixel of a view
-    double rounding;     ///< object units: voxtact::MeshFacts::rounding; above 1e-4 it gives a note
+    double rounding;     ///< object units: voxtact::MeshFacts::rounding; above 1e-4, a note
     double deflection;   ///< object units: vxt_mesh_view::deflection
 } vxt_mesh_facts;
 
@@ -174,7 +174,7 @@ typedef struct vxt_opacity_facts {
 
 /// Whether a mesh has an inside: voxtact::SolidFacts.
 typedef struct vxt_solid_facts {
-    uint32_t holes;        ///< loops of edges where the surface ends; 0: it is closed
+    uint32_t holes;        ///< loops of edges where the surface ends; 0: closed
     uint32_t open_edges;   ///< edges of all holes together
     uint32_t non_manifold; ///< edges of more than two triangles
     uint32_t inward;       ///< 1: the triangles face inwards, which does not matter
@@ -182,19 +182,19 @@ typedef struct vxt_solid_facts {
     double signed_volume;  ///< object units^3, without bounds
 } vxt_solid_facts;
 
-/// Refuses what voxtact::checkGrid() refuses.
+/// Refuses grids that voxtact::checkGrid() refuses.
 VXT_CHECKED vxt_result vxt_check_grid(const vxt_grid* grid);
-/// Returns the smallest and largest voxel; refuses what voxtact::checkVolume() refuses. O(voxels).
+/// Returns the smallest and largest voxel; refuses volumes that voxtact::checkVolume() refuses. O(voxels).
 VXT_CHECKED vxt_result vxt_check_volume(const vxt_volume_view* volume, vxt_range* range);
-/// Returns the facts of a mesh; refuses what voxtact::checkMesh() refuses. O(vertices + triangles).
+/// Returns the facts of a mesh; refuses meshes that voxtact::checkMesh() refuses. O(vertices + triangles).
 VXT_CHECKED vxt_result vxt_check_mesh(const vxt_mesh_view* mesh, vxt_mesh_facts* facts);
-/// Checks whether a mesh is closed. Refuses what voxtact::checkSolid() refuses.
+/// Checks whether a mesh is closed. Refuses meshes that voxtact::checkSolid() refuses.
 VXT_CHECKED vxt_result vxt_check_solid(const vxt_mesh_view* mesh, vxt_solid_facts* facts);
 /// Computes the effect of a threshold: voxtact::checkOpacity(). `data`: the range that vxt_check_volume() returns.
 VXT_CHECKED vxt_result vxt_check_opacity(const vxt_transfer_function_desc* desc, const vxt_range* data,
                                          double threshold, vxt_opacity_facts* facts);
-/// Writes the `table_size` entries of a transfer function to `table`, which holds `room`. Refuses what
-/// voxtact::sampleTable() refuses, and too small a table.
+/// Writes the `table_size` entries of a transfer function to `table`, which holds `room` entries. Refuses functions
+/// that voxtact::sampleTable() refuses, and a table that is too small.
 VXT_CHECKED vxt_result vxt_sample_table(const vxt_transfer_function_desc* desc, float* table, size_t room);
 /// Returns "uint8", "int16", "uint16" or "float"; "unknown" for an invalid number.
 VXT_API const char* vxt_scalar_type_name(vxt_scalar_type type);
@@ -235,7 +235,7 @@ VXT_CHECKED vxt_result vxt_framing_view(const vxt_grid* grid, uint32_t width, ui
 /// Refuses elements that are not finite and a last row other than 0 0 0 1.
 VXT_CHECKED vxt_result vxt_check_affine(const double b_from_a[16]);
 
-// The result of each of these functions may be one of its arguments.
+// In these functions, the result may be one of the arguments.
 
 /// Returns the second camera of the projection TWO_VIEW: voxtact::sideView().
 VXT_CHECKED vxt_result vxt_side_view(const double clip_from_world[16], double side_from_world[16]);
@@ -247,8 +247,8 @@ VXT_CHECKED vxt_result vxt_inverse(const double b_from_a[16], double a_from_b[16
 VXT_CHECKED vxt_result vxt_transform_point(const double b_from_a[16], const double point[3], double transformed[3]);
 /// Returns the bounding box of a box's corners under an affine matrix, rounded outward: voxtact::transformBox().
 VXT_CHECKED vxt_result vxt_transform_box(const double b_from_a[16], const vxt_box* box, vxt_box* transformed);
-/// Returns the pose at a parameter from 0 to 1 between two poses: voxtact::poseBetween(). `centre`: of the mesh's box
-/// in object space; may be null for SCREW.
+/// Returns the pose at a parameter from 0 to 1 between two poses: voxtact::poseBetween(). `centre`: centre of the
+/// mesh's box in object space; may be null for SCREW.
 VXT_CHECKED vxt_result vxt_pose_between(const double from[16], const double to[16], double parameter,
                                         vxt_interpolation interpolation, const double centre[3],
                                         double world_from_object[16]);
@@ -301,9 +301,9 @@ VXT_API void vxt_mesh_data_destroy(vxt_mesh_data* data);
 
 /// A label map in host memory: voxtact::LabelData.
 typedef struct vxt_labels vxt_labels;
-/// Creates a label map from an image of labels. Refuses what voxtact::makeLabels() refuses.
+/// Creates a label map from an image of labels. Refuses images that voxtact::makeLabels() refuses.
 VXT_CHECKED vxt_result vxt_labels_create(const vxt_volume_view* volume, vxt_labels** labels);
-/// Creates the label map on a volume's grid, of which the map's own is a part: voxtact::labelsOnGrid().
+/// Extends a label map to a volume's grid, which must contain the map's grid: voxtact::labelsOnGrid().
 VXT_CHECKED vxt_result vxt_labels_on_grid(const vxt_labels* labels, const vxt_grid* volume, vxt_labels** on_grid);
 /// Returns the labels, ascending, each once, including 0.
 VXT_API const int32_t* vxt_labels_values(const vxt_labels* labels, size_t* count);
@@ -315,7 +315,7 @@ VXT_CHECKED vxt_result vxt_labels_at(const vxt_labels* labels, const double worl
 VXT_CHECKED vxt_result vxt_labels_at_points(const vxt_labels* labels, const double* points, size_t count,
                                             int32_t* found);
 /// Returns the labels that a straight line crosses, in order, each once, without 0: voxtact::labelsAlong(). Writes at
-/// most `room` labels to `found`, which may be null if `room` is 0; `count`, not null, is their number.
+/// most `room` labels to `found`, which may be null if `room` is 0; `count`, not null, receives their number.
 VXT_CHECKED vxt_result vxt_labels_along(const vxt_labels* labels, const double from[3], const double to[3],
                                         int32_t* found, size_t room, size_t* count);
 VXT_API void vxt_labels_destroy(vxt_labels* labels);
@@ -395,7 +395,7 @@ VXT_API vxt_filter vxt_default_filter(vxt_method method);
 
 // ======== Host scene ========
 
-/// A 3D image of the host engine: voxtact::cpu::Volume. Edits apply from the next question on; none may run meanwhile.
+/// A 3D image of the host engine: voxtact::cpu::Volume. Edit only between questions; the next question uses the edit.
 typedef struct vxt_host_volume vxt_host_volume;
 /// Copies the voxels.
 VXT_CHECKED vxt_result vxt_host_volume_create(const vxt_volume_view* view, vxt_host_volume** volume);
@@ -416,7 +416,7 @@ VXT_API void vxt_host_volume_destroy(vxt_host_volume* volume);
 
 /// Value -> opacity on the host: voxtact::cpu::TransferFunction.
 typedef struct vxt_host_transfer_function vxt_host_transfer_function;
-/// Creates a transfer function. Refuses what voxtact::sampleTable() refuses.
+/// Creates a transfer function. Refuses functions that voxtact::sampleTable() refuses.
 VXT_CHECKED vxt_result vxt_host_transfer_function_create(const vxt_transfer_function_desc* desc,
                                                          vxt_host_transfer_function** function);
 VXT_API void vxt_host_transfer_function_destroy(vxt_host_transfer_function* function);
@@ -431,7 +431,7 @@ VXT_CHECKED vxt_result vxt_host_mesh_facts(const vxt_host_mesh* mesh, vxt_mesh_f
 VXT_CHECKED vxt_result vxt_host_mesh_update(vxt_host_mesh* mesh, const double* positions, size_t vertex_count);
 VXT_API void vxt_host_mesh_destroy(vxt_host_mesh* mesh);
 
-/// A cancel flag, for any thread: calls that see it set soon return CANCELLED, even if it is reset meanwhile.
+/// A cancel flag for any thread: calls that read a set flag soon return CANCELLED, even after a reset.
 typedef struct vxt_cancel vxt_cancel;
 /// Creates a cancel flag, initially not set.
 VXT_CHECKED vxt_result vxt_cancel_create(vxt_cancel** cancel);
@@ -462,7 +462,7 @@ typedef struct vxt_pairs {
 
 // ======== Questions: vxt_fact_get() returns the ranges and defaults of their numbers ========
 
-/// Does it touch? voxtact::Touch.
+/// Does the surface touch the opaque region? voxtact::Touch.
 typedef struct vxt_touch {
     size_t struct_size;
     double margin;               ///< mm: is anything opaque within this distance? Not with an uncertainty
@@ -487,7 +487,7 @@ typedef struct vxt_count {
     uint32_t max_contacts;      ///< maximum number of contacts; a longer list is cut; 0: 2^20
 } vxt_count;
 
-/// How near? voxtact::Distance.
+/// How far is the surface from the opaque region? voxtact::Distance.
 typedef struct vxt_distance {
     size_t struct_size;
     double tolerance;      ///< mm: stop when upper - lower is at most this
@@ -500,7 +500,7 @@ typedef struct vxt_distance {
     uint64_t max_steps;    ///< iteration limit per pair
 } vxt_distance;
 
-/// How much of the surface? voxtact::Area.
+/// How much of the surface is in the opaque region? voxtact::Area.
 typedef struct vxt_area {
     size_t struct_size;
     double tolerance;      ///< mm^2: stop when upper - lower is at most this
@@ -511,8 +511,8 @@ typedef struct vxt_area {
     uint64_t max_steps;    ///< iteration limit per pair
 } vxt_area;
 
-/// How much of the opaque region is inside a closed mesh, and of which values? voxtact::Overlap. Returns
-/// INVALID_ARGUMENT for a mesh with holes: vxt_mesh_fill_holes().
+/// How much of the opaque region is inside a closed mesh, and of which values? voxtact::Overlap. INVALID_ARGUMENT for a
+/// mesh with holes: fill the holes by vxt_mesh_fill_holes().
 typedef struct vxt_overlap {
     size_t struct_size;
     double tolerance;          ///< mm^3: stop when upper - lower is at most this
@@ -544,14 +544,14 @@ typedef struct vxt_obstacle {
 } vxt_obstacle;
 
 /// Which straight paths keep clear of obstacles? voxtact::cpu::Plan. An entry is the point at which a direction from
-/// the target leaves the opaque region of `entry_volume`, a label, or a ball; exactly one of them is set.
+/// the target leaves the opaque region of `entry_volume`, a label, or a ball; set exactly one of the three.
 typedef struct vxt_plan {
     size_t struct_size;
     const vxt_obstacle* obstacles;                             ///< at least one
     size_t obstacle_count;                                     ///< length of `obstacles`
     const vxt_host_volume* entry_volume;                       ///< with a transfer function: its opaque region
     const vxt_host_transfer_function* entry_transfer_function; ///< of entry_volume
-    const vxt_labels* entry_labels;                            ///< or a label map
+    const vxt_labels* entry_labels;                            ///< instead of a volume: a label map
     const vxt_host_mesh* mesh;                                 ///< the instrument, instead of the needle; may be null
     vxt_cancel* cancel;                                        ///< cancels the call; may be null
     double target[3];                                          ///< destination of the tip
@@ -570,7 +570,7 @@ typedef struct vxt_plan {
     uint32_t border_entries;     ///< 1: paths may also begin where the image's border cuts the region
     uint32_t triangle_distances; ///< 1: needle only: the column `distance` of triangles; doubles the time
     double tolerance;            ///< mm: stop when upper - lower is at most this
-    double max;                  ///< mm: stop when lower reaches this; 0: 10
+    double max;                  ///< mm: stop when lower reaches this distance; 0: 10
     uint64_t max_steps;          ///< iteration limit per path
 } vxt_plan;
 
@@ -585,7 +585,7 @@ VXT_API void vxt_answer_destroy(vxt_answer* answer);
 
 /// Type of a column's elements.
 typedef enum vxt_type {
-    VXT_TYPE_UINT32 = 0, ///< also an index of an enumeration: `choices` of its column
+    VXT_TYPE_UINT32 = 0, ///< a number, or an index into `choices` of the column
     VXT_TYPE_INT32 = 1,  ///< a label
     VXT_TYPE_UINT64 = 2, ///< a count
     VXT_TYPE_DOUBLE = 3, ///< in `unit`
@@ -647,8 +647,8 @@ VXT_CHECKED vxt_result vxt_ask_plan(vxt_host_engine* engine, const vxt_plan* que
 /// State of a moving mesh at one pose: voxtact::TrackedDistance.
 typedef struct vxt_tracked {
     size_t struct_size;
-    double lower;      ///< mm: no point of the surface is nearer to an opaque point
-    double upper;      ///< mm: some point is at most this far; infinite if unknown
+    double lower;      ///< mm: lower bound of the distance
+    double upper;      ///< mm: upper bound of the distance; infinite if unknown
     uint32_t touch;    ///< 0: no, proven; 1: yes, proven; 2: undecided
     uint32_t searched; ///< 1: the volume was searched; 0: earlier bounds were enough
 } vxt_tracked;
@@ -682,7 +682,7 @@ typedef enum vxt_limit {
     VXT_LIMIT_MAX = 0x7fffffff
 } vxt_limit;
 
-/// A number of a question. Its texts have static lifetime.
+/// Range and default of a number of a question. The texts have static lifetime.
 typedef struct vxt_fact {
     size_t struct_size;
     const char* question;  ///< "touch"; "scene": of every question
@@ -708,7 +708,7 @@ typedef struct vxt_volume_read_options {
     const char* series;    ///< SeriesInstanceUID in a DICOM folder; null: the only series
     uint32_t choose_frame; ///< 1: uses `frame`; 0: the only image
     uint32_t frame;        ///< index in a 4D NIfTI file, from 0
-    uint32_t resample;     ///< 1: DICOM slices that make no regular grid are resampled, with a note; 0: refused
+    uint32_t resample;     ///< 1: resamples DICOM slices without a regular grid, with a note; 0: refuses them
 } vxt_volume_read_options;
 
 /// Unit and space of a mesh file.
@@ -716,7 +716,7 @@ typedef struct vxt_mesh_read_options {
     size_t struct_size;
     double scale;      ///< millimetres per unit of the file; 0: 1
     uint32_t ras;      ///< 1: RAS coordinates: x and y are negated; 0: as the file states, else LPS
-    double deflection; ///< of the triangulation of STEP and IGES, mm; 0: 0.01
+    double deflection; ///< mm, for the triangulation of STEP and IGES; 0: 0.01
 } vxt_mesh_read_options;
 
 /// Reads a volume from a file or a DICOM folder: voxtact::io::readVolume().
@@ -741,7 +741,7 @@ VXT_CHECKED vxt_result vxt_write_png(const char* path, uint32_t width, uint32_t 
 VXT_CHECKED vxt_result vxt_read_camera(const char* path, double clip_from_world[16]);
 
 /// Returns the largest deviation of a grid's axes from right angles, degrees: voxtact::io::shearDegrees().
-/// `max_degrees` returns the maximum for a NIfTI sform; may be null.
+/// `max_degrees` receives the maximum for a NIfTI sform; may be null.
 VXT_CHECKED vxt_result vxt_grid_shear(const vxt_grid* grid, double* degrees, double* max_degrees);
 /// Return the readers' note on a sheared grid, or on vertices that single precision rounds; otherwise "". Valid until
 /// the same thread calls again.
@@ -770,7 +770,7 @@ VXT_CHECKED vxt_result vxt_parse_opacity(const char* text, vxt_control_points** 
 /// Returns the points.
 VXT_API const vxt_control_point* vxt_control_points_get(const vxt_control_points* points, size_t* count);
 VXT_API void vxt_control_points_destroy(vxt_control_points* points);
-/// Reads the colours of a transfer function's JSON file; none if it has none: voxtact::io::readColours().
+/// Reads the colours of a transfer function's file; none without colours: voxtact::io::readColours().
 VXT_CHECKED vxt_result vxt_read_colours(const char* path, vxt_colour_points** points);
 /// Returns the points.
 VXT_API const vxt_colour_point* vxt_colour_points_get(const vxt_colour_points* points, size_t* count);
@@ -791,7 +791,7 @@ VXT_API void vxt_points_destroy(vxt_points* points);
 typedef struct vxt_pose_reader vxt_pose_reader;
 /// Opens a file.
 VXT_CHECKED vxt_result vxt_pose_reader_open(const char* path, const char* format, vxt_pose_reader** reader);
-/// Reads the next poses, at most `most`, into `poses`, 16 doubles each. `count` is their number: 0 at the end.
+/// Reads at most `most` poses into `poses`, 16 doubles each. `count` receives their number: 0 at the end.
 VXT_CHECKED vxt_result vxt_pose_reader_read(vxt_pose_reader* reader, double* poses, size_t most, size_t* count);
 VXT_API void vxt_pose_reader_destroy(vxt_pose_reader* reader);
 

@@ -41,7 +41,7 @@ typedef struct vxt_context_desc {
     const VkPhysicalDeviceFeatures2* enabled_features; ///< the feature chain passed to vkCreateDevice
     const char* const* enabled_instance_extensions;    ///< only VK_EXT_debug_utils matters
     size_t enabled_instance_extension_count;           ///< length of enabled_instance_extensions
-    const char* const* enabled_device_extensions;      ///< only those of vxt_optional_device_extensions() matter
+    const char* const* enabled_device_extensions;      ///< only vxt_optional_device_extensions() matter
     size_t enabled_device_extension_count;             ///< length of enabled_device_extensions
     VkPipelineCache pipeline_cache;                    ///< optional
     const VkAllocationCallbacks* allocator;            ///< optional
@@ -58,7 +58,7 @@ typedef struct vxt_context_desc {
 typedef struct vxt_requirement {
     const char* feature;   ///< member of `structure`, as Vulkan spells it
     const char* structure; ///< e.g. "VkPhysicalDeviceVulkan13Features"
-    const char* without;   ///< the loss without it
+    const char* without;   ///< loss without the feature
     uint32_t required;     ///< 1: required; 0: recommended
 } vxt_requirement;
 
@@ -71,8 +71,7 @@ VXT_API const char* const* vxt_optional_device_extensions(size_t* count);
 
 /// A feature chain for vkCreateDevice: voxtact::FeatureRequest.
 typedef struct vxt_features vxt_features;
-/// Creates a chain of exactly the requirements that `supported` offers, as vkGetPhysicalDeviceFeatures2 filled it in.
-/// Null: only the required ones.
+/// Creates a chain of the requirements that `supported` (vkGetPhysicalDeviceFeatures2) offers; null: required ones.
 VXT_CHECKED vxt_result vxt_features_create(const VkPhysicalDeviceFeatures2* supported, vxt_features** features);
 /// Returns the chain: VkPhysicalDeviceFeatures2, Vulkan12Features, Vulkan13Features. Set your own features
 /// in their members, and append your own structs.
@@ -89,11 +88,11 @@ typedef struct vxt_queue {
     uint32_t family;            ///< family of the queue; with graphics or, for uploads, compute
 } vxt_queue;
 
-/// Creates a context, voxtact on one device: voxtact::Context. A process may have any number of them.
+/// Creates a context, voxtact on one device: voxtact::Context. A process may have any number of contexts.
 VXT_CHECKED vxt_result vxt_context_create(const vxt_context_desc* desc, vxt_context** context);
 /// Returns 1 if the device supports a counting method in a projection.
 VXT_API uint32_t vxt_context_supports(const vxt_context* context, vxt_method method, vxt_projection projection);
-/// Returns the exact method with the fewest requirements: query, else atomic, else query-any.
+/// Returns the method with the fewest requirements: query, else atomic, else query-any.
 VXT_API vxt_method vxt_context_default_method(const vxt_context* context);
 /// Returns the largest viewport.
 VXT_API VkExtent2D vxt_context_max_viewport(const vxt_context* context);
@@ -118,8 +117,8 @@ typedef struct vxt_device_facts {
 VXT_CHECKED vxt_result vxt_device_count(uint32_t* count);
 /// Returns the facts of a device by index.
 VXT_CHECKED vxt_result vxt_device_describe(uint32_t index, vxt_device_facts* facts);
-/// Opens a device: `wanted` is its index, a part of its name, or "" for the best. Refuses a name of no device or
-/// several, and lists the devices. UNSUPPORTED without a loader, a device or Vulkan 1.3.
+/// Opens a device: `wanted` is its index, a part of its name, or "" for the best. Refuses a name that fits no device or
+/// several; the error lists the devices. UNSUPPORTED without a loader, a device or Vulkan 1.3.
 VXT_CHECKED vxt_result vxt_device_open(const char* wanted, vxt_device** device);
 /// Returns the facts of the device.
 VXT_CHECKED vxt_result vxt_device_get_facts(const vxt_device* device, vxt_device_facts* facts);
@@ -157,7 +156,7 @@ typedef struct vxt_report vxt_report;
 /// Returns the contents.
 VXT_CHECKED vxt_result vxt_report_get(const vxt_report* report, vxt_report_view* view);
 VXT_API void vxt_report_destroy(vxt_report* report);
-/// Reports the methods that a detector can use on this device, and why others cannot be used.
+/// Reports the methods that a detector can use on this device, and the reasons against the others.
 VXT_CHECKED vxt_result vxt_context_methods(const vxt_context* context, vxt_report** report);
 /// Checks a description without creating anything. Problems of the device are in the report, not in the result.
 VXT_CHECKED vxt_result vxt_check(const vxt_context_desc* desc, vxt_report** report);
@@ -179,7 +178,7 @@ typedef struct vxt_wrapped_volume {
     size_t struct_size;
     VkImageView view; ///< 3D, one mip level, component r sampled
     VkFormat format;  ///< R8_UNORM, R16_UNORM, R16_SNORM, R16_SFLOAT or R32_SFLOAT
-    /// While commands execute: READ_ONLY_OPTIMAL, GENERAL, or SHADER_READ_ONLY_OPTIMAL: 0.
+    /// Layout while commands execute: READ_ONLY_OPTIMAL or GENERAL; 0: SHADER_READ_ONLY_OPTIMAL.
     VkImageLayout layout;
     vxt_grid grid;         ///< position of the voxels
     double slope;          ///< value = slope * stored + intercept; 0: 1
@@ -236,7 +235,7 @@ typedef struct vxt_wrapped_transfer_function {
     size_t struct_size;
     VkImageView view;     ///< 1D, opacity in component r
     vxt_range domain;     ///< values that the table covers; lo < hi
-    const float* table;   ///< the same table on the host, if the caller has it; else null. `certified` needs it
+    const float* table;   ///< the same table on the host, required by `certified`; may be null
     size_t table_size;    ///< entries of `table`
     VkImageLayout layout; ///< while commands execute; 0: SHADER_READ_ONLY_OPTIMAL
 } vxt_wrapped_transfer_function;
@@ -284,7 +283,7 @@ typedef struct vxt_wrapped_mesh {
     uint32_t vertex_count;      ///< vertices in the buffer
     VkIndexType index_type;     ///< UINT16, which is 0, or UINT32
     uint32_t triangle_count;    ///< triangles to draw
-    uint32_t storage;           ///< the buffers also have usage STORAGE_BUFFER
+    uint32_t storage;           ///< 1: the buffers also have usage STORAGE_BUFFER
     /// As in vxt_mesh_options. Call vxt_mesh_cmd_upload() before use, and vxt_mesh_cmd_refit() after changes.
     uint32_t clusters;
     /// With clusters: the same triangles on the host, read by vxt_mesh_wrap() only; null: clusters in the order of the
@@ -335,7 +334,7 @@ VXT_API void vxt_label_map_destroy(vxt_label_map* map);
 
 /// The answer for one pair: voxtact::PairAnswer.
 typedef struct vxt_pair {
-    uint64_t count;            ///< passing fragments; 1 for a hit of a boolean query or an early exit
+    uint64_t count;            ///< passing fragments; 1 for a touch by a boolean query or an early exit
     uint32_t pair;             ///< index of the pair in its batch
     uint32_t item;             ///< index of the item of the pair
     uint32_t pose;             ///< index of the pose in that item
@@ -420,7 +419,7 @@ VXT_API void vxt_pose_buffer_destroy(vxt_pose_buffer* poses);
 /// One mesh at some poses against one volume under one transfer function.
 typedef struct vxt_item {
     size_t struct_size;                             ///< sizeof this struct
-    const vxt_mesh* mesh;                           ///< outlives the command buffer, like the others
+    const vxt_mesh* mesh;                           ///< must outlive the command buffer, like all objects
     const vxt_volume* volume;                       ///< the image
     const vxt_transfer_function* transfer_function; ///< defines the opaque region
     const double* world_from_object;                ///< 16 doubles per pose; affine; read during recording only
@@ -446,13 +445,13 @@ typedef struct vxt_buffer_range {
     VkDeviceSize size;   ///< bytes
 } vxt_buffer_range;
 
-/// Capacity of results: voxtact::ResultsDesc. An output of the detector needs its capacity; the others are ignored.
+/// Capacity of results: voxtact::ResultsDesc. Each output of the detector needs its capacity; others are ignored.
 typedef struct vxt_results_desc {
     size_t struct_size;     ///< sizeof this struct
     uint64_t triangle_room; ///< output TRIANGLES: triangles of all pairs' meshes together
     uint64_t label_room;    ///< output LABELS: labels of all pairs' label maps together
     uint32_t contact_room;  ///< output CONTACTS: maximum number; a longer list is cut; 0: 2^16
-    uint32_t max_pairs;     ///< maximum number of pairs of a batch; 0: 1
+    uint32_t max_pairs;     ///< maximum pairs per batch; 0 means 1
     uint32_t no_read_back;  ///< 1: no host copy for vxt_results_read()
     uint32_t timestamps;    ///< 1: measures the device time; default 0
     uint32_t queue_family;  ///< with timestamps: family of the executing queue; default 0
@@ -493,29 +492,29 @@ VXT_CHECKED vxt_result vxt_results_create(const vxt_detector* detector, const vx
 VXT_CHECKED vxt_result vxt_results_on_device(const vxt_results* results, vxt_device_part part, vxt_buffer_range* range);
 /// Records a copy of the results to host memory; after vxt_detector_cmd_detect().
 VXT_CHECKED vxt_result vxt_results_cmd_read_back(vxt_results* results, VkCommandBuffer commands);
-/// Reads the host copy of a submission that the caller knows to be complete; NOT_READY if it visibly is not. With
-/// timestamps, gpu_milliseconds is that of the batch.
+/// Reads the host copy of a completed submission; NOT_READY if the copy visibly has not executed. With timestamps,
+/// gpu_milliseconds is the device time of the batch.
 VXT_CHECKED vxt_result vxt_results_read(vxt_results* results, vxt_answer* answer);
 /// Destroys the object. Ignores the results of a ring, which the ring owns.
 VXT_API void vxt_results_destroy(vxt_results* results);
 
 /// Counters of the passes of the projection CERTIFIED for a batch: voxtact::CertifiedCounters, whose comments describe
-/// them. A peak is that of the round with the most.
+/// them. A peak is the maximum over all rounds.
 typedef struct vxt_certified_counters {
     size_t struct_size;       ///< sizeof this struct
-    uint64_t clusters;        ///< clusters that were tested, once for each pair
-    uint64_t clusters_kept;   ///< of these, those that may touch
+    uint64_t clusters;        ///< tested clusters, counted once per pair
+    uint64_t clusters_kept;   ///< tested clusters that may touch
     uint64_t runs_kept;       ///< runs of 16 triangles that may touch
     uint64_t large_parts;     ///< shares of triangles with more than 27 cells
-    uint64_t bricks_seen;     ///< bricks of these triangles that were tested
-    uint64_t cells_seen;      ///< cells that were tested
-    uint64_t cells_listed;    ///< of these, cells that need a decision
+    uint64_t bricks_seen;     ///< tested bricks of these triangles
+    uint64_t cells_seen;      ///< tested cells
+    uint64_t cells_listed;    ///< of cells_seen: cells that need a decision
     uint64_t cells_decided;   ///< cells that a lane decided
     uint64_t lanes;           ///< lanes dispatched for these cells
     uint64_t cells_open;      ///< cells that single precision left undecided
-    uint64_t left;            ///< shares of work groups that a queue had no room for
-    uint64_t bricks_left;     ///< bricks tested for these
-    uint64_t cells_left;      ///< cells tested for these
+    uint64_t left;            ///< shares of work groups for which a queue had no room
+    uint64_t bricks_left;     ///< bricks tested for these shares
+    uint64_t cells_left;      ///< cells tested for these shares
     uint32_t rounds;          ///< dispatches of each pass
     uint32_t room;            ///< maximum number of clusters in a round
     uint32_t most_clusters;   ///< peak of clusters_kept
@@ -526,7 +525,7 @@ typedef struct vxt_certified_counters {
     uint32_t most_left;       ///< peak of left
     uint32_t most_looks;      ///< peak of bricks_seen and cells_seen together
     uint32_t most_looks_left; ///< peak of bricks_left and cells_left together
-    uint64_t cells_certain;   ///< of cells_seen, counted without a decision: opaque, a triangle clearly inside
+    uint64_t cells_certain;   ///< of cells_seen: opaque, with a triangle clearly inside; counted without a decision
 } vxt_certified_counters;
 
 /// Returns the counters of an answer with vxt_certified_desc::counters; otherwise NOT_READY.
@@ -537,24 +536,24 @@ typedef struct vxt_result_ring vxt_result_ring;
 /// Creates a ring. `frames`: maximum number in flight. A null `desc` has all defaults.
 VXT_CHECKED vxt_result vxt_result_ring_create(const vxt_detector* detector, uint32_t frames,
                                               const vxt_results_desc* desc, vxt_result_ring** ring);
-/// Returns the slot of a frame, for recording; the ring owns it, and it is valid until its next
-/// vxt_result_ring_begin(). The frame that used the slot before must have completed. Nothing can be read from it until
-/// a detection and its read-back are recorded.
+/// Returns the slot of a frame, for recording. The ring owns the slot, which is valid until its next
+/// vxt_result_ring_begin(). The previous frame of the slot must have completed. The slot is readable after a recorded
+/// detection and read-back.
 VXT_CHECKED vxt_result vxt_result_ring_begin(vxt_result_ring* ring, uint64_t frame, vxt_results** results);
-/// Reads the results of a completed frame; NOT_READY if its slot was never used, or a later frame has taken it.
+/// Reads the results of a completed frame; NOT_READY if its slot was never used, or a later frame has claimed it.
 VXT_CHECKED vxt_result vxt_result_ring_read(vxt_result_ring* ring, uint64_t frame, vxt_answer* answer);
 /// Destroys the object and its results.
 VXT_API void vxt_result_ring_destroy(vxt_result_ring* ring);
 
-/// Creates a certified detector: voxtact::Detector::certified(). UNSUPPORTED, with the missing feature or limit, if the
-/// device cannot run it. A null `desc` has all defaults.
+/// Creates a certified detector: voxtact::Detector::certified(). UNSUPPORTED if the device cannot run the detector; the
+/// error names the missing feature or limit. A null `desc` has all defaults.
 VXT_CHECKED vxt_result vxt_detector_create_certified(const vxt_context* context, const vxt_certified_desc* desc,
                                                      vxt_detector** detector);
 /// Like vxt_detector_create_certified(), for voxtact::Detector::raster().
 VXT_CHECKED vxt_result vxt_detector_create_raster(const vxt_context* context, const vxt_raster_desc* desc,
                                                   vxt_detector** detector);
-/// Records the detection of a batch: no allocation of device memory, no submission, no wait, no map. On error nothing
-/// useful was recorded, and the command buffer must not be submitted.
+/// Records the detection of a batch: no allocation of device memory, no submission, no wait, no map. After an error, do
+/// not submit the command buffer.
 VXT_CHECKED vxt_result vxt_detector_cmd_detect(const vxt_detector* detector, VkCommandBuffer commands,
                                                const vxt_batch* batch, vxt_results* results);
 /// Returns the variant that VXT_BOUNDARY_AUTO selects for an item at a threshold above 0, up to 1; 0: 0.1.
@@ -569,7 +568,7 @@ typedef struct vxt_blocking_detector vxt_blocking_detector;
 VXT_CHECKED vxt_result vxt_blocking_detector_create_certified(const vxt_context* context,
                                                               const vxt_certified_desc* desc, const vxt_queue* queue,
                                                               uint32_t most_contacts, vxt_blocking_detector** detector);
-/// Like vxt_blocking_detector_create_certified(), for the other detectors.
+/// Like vxt_blocking_detector_create_certified(), for voxtact::RasterDesc.
 VXT_CHECKED vxt_result vxt_blocking_detector_create_raster(const vxt_context* context, const vxt_raster_desc* desc,
                                                            const vxt_queue* queue, uint32_t most_contacts,
                                                            vxt_blocking_detector** detector);
@@ -599,8 +598,8 @@ typedef struct vxt_view_direction {
 } vxt_view_direction;
 /// Returns the direction of `front`, `back`, `left`, `right`, `top` or `bottom`.
 VXT_CHECKED vxt_result vxt_direction_named(const char* name, vxt_view_direction* direction);
-/// Returns an orthographic view that frames the volume's box in the whole picture: voxtact::viewFrom(). `also`: a box
-/// in world space that is also between the near and far planes; may be null.
+/// Returns an orthographic view that frames the volume's box in the whole picture: voxtact::viewFrom(). `also`: another
+/// box in world space between the near and far planes; may be null.
 VXT_CHECKED vxt_result vxt_view_from(const vxt_view_direction* direction, const vxt_grid* grid, const vxt_box* also,
                                      uint32_t width, uint32_t height, vxt_view* view);
 /// Returns the same triangles, with separate vertices at edges of more than `degrees` (0..180; recommended: 40):
@@ -611,7 +610,7 @@ VXT_CHECKED vxt_result vxt_split_at_creases(const vxt_mesh_view* mesh, double de
 
 /// Renders pictures in one colour format: voxtact::Renderer.
 typedef struct vxt_renderer vxt_renderer;
-/// Returns UNSUPPORTED if the device cannot render to the format, or its pixels are integers. Recommended:
+/// Creates a renderer. UNSUPPORTED if the device cannot render to the format, or its pixels are integers. Recommended:
 /// R8G8B8A8_UNORM.
 VXT_CHECKED vxt_result vxt_renderer_create(const vxt_context* context, VkFormat color_format, vxt_renderer** renderer);
 /// Destroys the object; objects created with it remain valid. Ignores the renderer of a vxt_blocking_renderer.
@@ -698,7 +697,7 @@ VXT_CHECKED vxt_result vxt_painted_vertices_cmd_upload(vxt_painted_vertices* pai
 VXT_API void vxt_painted_vertices_release_staging(vxt_painted_vertices* painted);
 VXT_API void vxt_painted_vertices_destroy(vxt_painted_vertices* painted);
 
-/// What is painted on a mesh: voxtact::Paint.
+/// Paint on a mesh: voxtact::Paint.
 typedef enum vxt_paint {
     VXT_PAINT_PLAIN = 0,     ///< nothing
     VXT_PAINT_CONTACTS = 1,  ///< passing fragments, as the projection VIEW counts them
@@ -713,7 +712,7 @@ typedef struct vxt_scene_mesh {
     size_t struct_size;
     const vxt_mesh* mesh;                           ///< required
     const vxt_mesh_normals* normals;                ///< of `mesh`: smooth shading; null: each triangle is flat
-    const vxt_transfer_function* transfer_function; ///< that of the detector; for CONTACTS and DISCARDED
+    const vxt_transfer_function* transfer_function; ///< of the detector; for CONTACTS and DISCARDED
     const vxt_painted_triangles* triangles;         ///< for TRIANGLES
     double world_from_object[16];                   ///< affine, not singular; all 0: the identity
     double colour[3];                               ///< without paint; all 0: 0.75 0.78 0.82
@@ -729,7 +728,7 @@ typedef struct vxt_scene_mesh {
 /// Removes the points p of world space with dot(normal, p) > offset.
 typedef struct vxt_clip_plane {
     double normal[3]; ///< any length; it scales `offset`
-    double offset;    ///< along the normal, if that has length 1
+    double offset;    ///< along the normal, if the normal has length 1
 } vxt_clip_plane;
 
 /// Light: voxtact::Lighting. Numbers without a range are from 0 to 1e6; -0.0: 0.
@@ -740,7 +739,7 @@ typedef struct vxt_lighting {
     double specular;         ///< strength of highlights; 0: 0.2
     double shininess;        ///< exponent of highlights; 0: 30
     double side;             ///< strength of the side light
-    double side_from[3];     ///< its direction: to the picture's right, up, towards the eye; all 0: -0.55 0.6 0.6
+    double side_from[3];     ///< direction to its source: picture's right, up, towards the eye; all 0: -0.55 0.6 0.6
     double occlusion;        ///< 0..1: darkening of enclosed points of the volume
     double reach;            ///< mm, above 0: range of occluders; 0: 8
     uint32_t plain_volume;   ///< 1: does not shade the volume by its gradient
@@ -754,7 +753,8 @@ VXT_CHECKED vxt_result vxt_lighting_named(const char* name, const vxt_grid* grid
 /// middle. `direction`: of the eye, only for `near`; else may be null.
 VXT_CHECKED vxt_result vxt_clip_side(const char* side, const double* at, const vxt_grid* grid,
                                      const vxt_view_direction* direction, vxt_clip_plane* plane);
-/// Returns a colour for each of several meshes, by index: voxtact::meshColour(). Null is allowed.
+/// Returns the default colour of the mesh with this index; colours repeat after six: voxtact::meshColour(). Null is
+/// allowed.
 VXT_API void vxt_mesh_colour(size_t number, double colour[3]);
 /// Returns the colour of a volume without a look, a warm white: voxtact::plainColours(). Null is allowed.
 VXT_API void vxt_plain_colour(double colour[3]);
@@ -769,7 +769,7 @@ typedef struct vxt_picture_scene {
     const vxt_render_bricks* bricks;     ///< of `volume`: skips its transparent parts; may be null
     const vxt_scene_mesh* meshes;        ///< meshes at the right depth; any number
     size_t mesh_count;                   ///< length of `meshes`
-    const vxt_clip_plane* clip_planes;   ///< a point that any of them removes is invisible
+    const vxt_clip_plane* clip_planes;   ///< a point that any plane removes is invisible
     size_t clip_plane_count;             ///< at most 6
     const vxt_lighting* lighting;        ///< null: the defaults
     double clip_from_world[16];          ///< orthographic or perspective; not singular
@@ -782,7 +782,7 @@ typedef struct vxt_picture_scene {
 
 /// Intermediate images of one picture in flight: voxtact::RenderTargets.
 typedef struct vxt_render_targets vxt_render_targets;
-/// Creates targets for pictures of at most that size.
+/// Creates targets for pictures of at most this size.
 VXT_CHECKED vxt_result vxt_render_targets_create(const vxt_renderer* renderer, uint32_t width, uint32_t height,
                                                  vxt_render_targets** targets);
 VXT_API void vxt_render_targets_destroy(vxt_render_targets* targets);
@@ -794,7 +794,7 @@ typedef struct vxt_picture_target {
     VkImageView view;            ///< of the renderer's format, one sample, usage COLOR_ATTACHMENT
     VkExtent2D extent;           ///< size of the picture, from the image's corner
     VkRect2D area;               ///< part to render; without an extent, the whole picture
-    VkQueryPool timestamps;      ///< three are written; null: none
+    VkQueryPool timestamps;      ///< receives three timestamps; null: none
     VkImageLayout layout;        ///< COLOR_ATTACHMENT_OPTIMAL, or GENERAL; 0: COLOR_ATTACHMENT_OPTIMAL
     uint32_t first_timestamp;    ///< index of the first query
 } vxt_picture_target;
@@ -831,7 +831,7 @@ VXT_CHECKED vxt_result vxt_blocking_renderer_create(const vxt_context* context, 
 /// Returns the recording renderer, for creating the parts of a scene; null for null.
 VXT_API const vxt_renderer* vxt_blocking_renderer_renderer(const vxt_blocking_renderer* renderer);
 /// Renders a picture; one at a time. With `progress` or the scene's `cancel`, renders bands of rows of about 0.2 s
-/// each, and returns CANCELLED after the band in which `cancel` is set. After a failure `picture` is unchanged.
+/// each. Returns CANCELLED after the band in which `cancel` is set. After a failure `picture` is unchanged.
 VXT_CHECKED vxt_result vxt_blocking_renderer_render(vxt_blocking_renderer* renderer, const vxt_picture_scene* scene,
                                                     uint32_t width, uint32_t height, vxt_picture_progress progress,
                                                     void* user, vxt_picture* picture);
