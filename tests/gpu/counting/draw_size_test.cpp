@@ -249,7 +249,7 @@ TEST_F(DrawSizeTest, NoLaneHasMorePixelsThanItShould) {
         const Mat4 pose =
             translation({uniform(random, -2, 2), uniform(random, -2, 2), -size * uniform(random, 0.5, 8)});
         const BatchItem item{&mesh, &volume, &function, {&pose, 1}};
-        const PixelSlices slices(context().impl(), {}, {{&item, 1}, view, 0.5}, item, {side, side});
+        const PixelSlices slices(context().impl(), passDesc(RasterDesc{}), {{&item, 1}, view, 0.5}, item, {side, side});
         const shader::PairTransform transform = pairTransform(view.clip_from_world, pose, identity());
         const float guard = shader::exactGuard(side);
         double rounds = 0; // of the lanes of each slice
