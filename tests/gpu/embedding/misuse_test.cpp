@@ -44,7 +44,7 @@ class MisuseTest : public RawGpuTest {
     /// The error of recording one item.
     [[nodiscard]] Error refused(const AnyDesc& desc, const BatchItem& bad) {
         const Detector one = take(Detector::create(context(), desc));
-        Results results = take(Results::create(one, {.room = {.triangles = 64}}));
+        Results results = take(Results::create(one, {.room = {.triangles = 64, .labels = 4}}));
         const Result<void> recorded = one.cmdDetect(raw().begin(), batchOf(bad), results);
         EXPECT_FALSE(recorded.ok());
         return recorded.ok() ? Error{} : recorded.error();
