@@ -116,7 +116,7 @@ TEST(ViewMeasures, SaysHowMuchIsInside) {
     MeshMeasures inside = touching(820, 821);
     EXPECT_EQ(overlapText(inside), "");
     inside.overlap = PairOverlap{.bounds = {33.421, 33.509}, .solid = {130, 131}, .end = StopReason::Closed};
-    EXPECT_EQ(overlapText(inside), "33.42 to 33.51 mm\u00b3 inside, at least 25 % of the mesh");
+    EXPECT_EQ(overlapText(inside), "33.42 to 33.51 mm\u00b3 inside, at least 25 %");
     const nlohmann::json json = allReported({3, {inside}, 1}, 3)["overlap"];
     EXPECT_EQ(json["hi"], 33.509);
     EXPECT_EQ(json["end"], "closed");

@@ -107,7 +107,9 @@ void drawDistance(const State& state) {
     if (const std::string overlap = overlapText(*measured); !overlap.empty()) {
         ImGui::TextColored(colour, "%s", shortened(overlap, ImGui::GetContentRegionAvail().x).c_str());
         if (ImGui::IsItemHovered()) {
-            ImGui::SetTooltip("%s\nCertified bounds of the opaque volume inside the closed mesh.", overlap.c_str());
+            ImGui::SetTooltip(
+                "%s\nCertified bounds of the opaque volume inside the closed mesh, and its share of the mesh.",
+                overlap.c_str());
         }
     }
 }

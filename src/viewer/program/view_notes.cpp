@@ -63,7 +63,8 @@ std::vector<view::Offer> windowOffers(const view::State& state) {
         source.space = best.space.empty() ? source.space : best.space;
         source.scale = best.scale;
         std::string path = source.path;
-        offers.push_back({std::move(text), best.options, {view::FileKind::Session, std::move(document), path}});
+        offers.push_back(
+            {std::move(text), "read it with " + best.options, {view::FileKind::Session, std::move(document), path}});
     }
     return offers;
 }

@@ -68,8 +68,7 @@ std::string overlapText(const MeshMeasures& measured) {
         return "nothing opaque inside";
     }
     const double share = std::floor(100 * lower / measured.overlap->solid.upper);
-    return lowerText(lower) + " to " + upperText(upper) + " mm\u00b3 inside, at least " + written(share, 0) +
-           " % of the mesh";
+    return lowerText(lower) + " to " + upperText(upper) + " mm\u00b3 inside, at least " + written(share, 0) + " %";
 }
 
 std::optional<std::array<Vec3, 2>> closestSegment(const PairDistance& pair) noexcept {

@@ -39,7 +39,7 @@ struct LiveMeasures {
 /// "12.34 to 12.35 mm away", "touches", "820.05 to 820.15 mm² touch", "nothing is opaque".
 [[nodiscard]] std::string measuresText(const MeshMeasures& measured);
 
-/// "33.42 to 33.51 mm³ inside, at least 24 % of the mesh"; empty if none was measured.
+/// "33.42 to 33.51 mm³ inside, at least 24 %", of the mesh; empty if none was measured.
 [[nodiscard]] std::string overlapText(const MeshMeasures& measured);
 
 /// The two closest points, on the mesh and in the opaque region; empty if it touches, or nothing is opaque.
