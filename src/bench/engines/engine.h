@@ -96,8 +96,8 @@ template <class Desc>
 [[nodiscard]] MadeEngine makeHostEngine(const Count& question = {}, std::uint32_t threads = 0);
 /// Creates an engine of a device method; arguments must outlive it.
 [[nodiscard]] MadeEngine makeDeviceEngine(const device::Session& session, const DetectorDesc& desc);
-/// Like above, by BlockingDetector: all pairs in one submission, for any feeding. With devicePoses, writing the poses as
-/// floats for the device is part of its time.
+/// Like above, by BlockingDetector: all pairs in one submission, for any feeding. With devicePoses, writing the poses
+/// as floats for the device is part of its time.
 [[nodiscard]] MadeEngine makeBlockingEngine(const device::Session& session, const DetectorDesc& desc);
 /// Wait of the host for the device.
 enum class Awaiting {
