@@ -36,8 +36,8 @@ template <class Desc> vxt_result makeDetector(const vxt_context* context, const 
 }
 
 template <class Desc>
-vxt_result makeBlocking(const vxt_context* context, const Desc* desc, const vxt_queue* queue,
-                        std::uint32_t maxContacts, vxt_blocking_detector** detector) {
+vxt_result makeBlocking(const vxt_context* context, const Desc* desc, const vxt_queue* queue, std::uint32_t maxContacts,
+                        vxt_blocking_detector** detector) {
     return create(context, "context", detector, [&](const Context& on) {
         return take(
             BlockingDetector::create(on, toDesc(desc), toQueue(queue), orDefault(maxContacts, kDefaultContactRoom)));
