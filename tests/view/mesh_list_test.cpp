@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <imgui_internal.h>
 
+#include <string>
 #include <string_view>
 
 namespace voxtact::test {
@@ -12,14 +13,22 @@ using namespace voxtact::view;
 
 namespace {
 
-/// The part of the list that scrolls.
-const ImGuiWindow* listOfMeshes() {
+/// A part of the window; null where it is not shown.
+const ImGuiWindow* partNamed(const std::string& name) {
     for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
-        if (window->WasActive && std::string_view(window->Name).find("/meshes_") != std::string_view::npos) {
+        const std::string_view whole = window->Name;
+        const std::size_t from = whole.find("/" + name + "_");
+        if (window->WasActive && from != std::string_view::npos &&
+            whole.find('/', from + 1) == std::string_view::npos) {
             return window;
         }
     }
     return nullptr;
+}
+
+/// The part of the list that scrolls.
+const ImGuiWindow* listOfMeshes() {
+    return partNamed("meshes");
 }
 
 } // namespace
@@ -35,11 +44,7 @@ TEST(ViewOffer, ItsButtonOpensTheOtherReading) {
     ShownPanels panels(state);
     panels.frame();
     EXPECT_NE(panels.shownText().find("far away"), std::string::npos);
-    const ImGuiWindow* column = nullptr;
-    for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
-        column = window->WasActive && std::string_view(window->Name).find("right") != std::string_view::npos ? window
-                                                                                                             : column;
-    }
+    const ImGuiWindow* const column = partNamed("right");
     ASSERT_NE(column, nullptr);
     for (float y = column->Pos.y; y < column->Pos.y + column->Size.y && !state.wanted; y += 8) {
         panels.click(static_cast<double>(column->Pos.x) + 30, static_cast<double>(y));

@@ -55,8 +55,7 @@ def not_pickled(of: object) -> NoReturn:
 
 def no_truth(of: object, ask: str) -> NoReturn:
     """Implements `__bool__` of answers: refuses, because an object with rows would always be true."""
-    raise TypeError(f"a voxtact.{type(of).__name__} is neither true nor false: it has one row per pair; "
-                    f"look at {ask}")
+    raise TypeError(f"a voxtact.{type(of).__name__} is neither true nor false: it has rows; look at {ask}")
 
 
 def restored(kind: type, slots: dict[str, Any]) -> Any:
