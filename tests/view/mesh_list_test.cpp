@@ -14,7 +14,7 @@ using namespace voxtact::view;
 namespace {
 
 /// A part of the window; null where it is not shown.
-const ImGuiWindow* partNamed(const std::string& name) {
+const ImGuiWindow* activePart(const std::string& name) {
     for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
         const std::string_view whole = window->Name;
         const std::size_t from = whole.find("/" + name + "_");
@@ -28,7 +28,7 @@ const ImGuiWindow* partNamed(const std::string& name) {
 
 /// The part of the list that scrolls.
 const ImGuiWindow* listOfMeshes() {
-    return partNamed("meshes");
+    return activePart("meshes");
 }
 
 } // namespace
@@ -44,7 +44,7 @@ TEST(ViewOffer, ItsButtonOpensTheOtherReading) {
     ShownPanels panels(state);
     panels.frame();
     EXPECT_NE(panels.shownText().find("far away"), std::string::npos);
-    const ImGuiWindow* const column = partNamed("right");
+    const ImGuiWindow* const column = activePart("right");
     ASSERT_NE(column, nullptr);
     for (float y = column->Pos.y; y < column->Pos.y + column->Size.y && !state.wanted; y += 8) {
         panels.click(static_cast<double>(column->Pos.x) + 30, static_cast<double>(y));
