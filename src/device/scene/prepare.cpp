@@ -10,8 +10,7 @@ namespace voxtact {
 namespace {
 
 /// Whether a created object waits for its upload, or a wrapped mesh for its clusters.
-template <class Impl>
-bool waits(const Impl& impl) {
+template <class Impl> bool waits(const Impl& impl) {
     return impl.staging.buffer && !impl.uploaded;
 }
 
@@ -23,8 +22,7 @@ Result<void> prepare(VkCommandBuffer commandBuffer, Volume& volume) {
     return waits(impl) ? volume.cmdUpload(commandBuffer) : Result<void>{};
 }
 
-template <class Other>
-Result<void> prepare(VkCommandBuffer commandBuffer, Other& resource) {
+template <class Other> Result<void> prepare(VkCommandBuffer commandBuffer, Other& resource) {
     return waits(resource.impl()) ? resource.cmdUpload(commandBuffer) : Result<void>{};
 }
 

@@ -13,7 +13,9 @@ using testing::HasSubstr;
 
 class PrepareTest : public RawGpuTest {
   protected:
-    PrepareTest() { bytes_ = makeBytes(unitGrid(7), [](auto...) { return 255.0; }); }
+    PrepareTest() {
+        bytes_ = makeBytes(unitGrid(7), [](auto...) { return 255.0; });
+    }
 
     Volume wrappedVolume() {
         WrappedVolume wrapped;
@@ -27,8 +29,9 @@ class PrepareTest : public RawGpuTest {
     Mesh wrappedMesh() {
         constexpr float kCorners[] = {0.1F, 0.1F, 0.5F, 0.9F, 0.1F, 0.5F, 0.9F, 0.9F, 0.5F};
         WrappedMesh wrapped;
-        wrapped.vertices = raw().makeBuffer(std::span<const float>(kCorners), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |
-                                                                                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT)
+        wrapped.vertices = raw()
+                               .makeBuffer(std::span<const float>(kCorners),
+                                           VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT)
                                .buffer;
         wrapped.vertexCount = 3;
         wrapped.triangleCount = 1;
