@@ -135,7 +135,7 @@ struct TrackerDesc {
 /// Tracks a mesh that moves little from call to call, as in haptics. At every pose, returns whether the mesh touches,
 /// usually without a search. A mesh that moved by less than its last known distance is free. The new bounds follow from
 /// the earlier ones: the distance changes by at most the largest displacement of a mesh point. A search covers only a
-/// few more moves like the last one, so its cost depends on the speed. Earlier calls never affect a certain touch. They
+/// few more moves like the last one, so its cost depends on the speed. Earlier calls never affect a certified yes. They
 /// may affect the width of the bounds, and whether a pose is free or undecided.
 ///
 /// Runs on the calling thread. The first call with a volume, transfer function or threshold prepares it, which takes

@@ -103,8 +103,8 @@ struct ResultsDesc {
     /// maxComputeWorkGroupCount (16384 per 65535 along x) and maxStorageBufferRange. Reduce it if the driver resets the
     /// GPU during long dispatches.
     ///
-    /// A dispatch tests at most 2^16 bricks and cells of large triangles per cluster, and 3.5e9 in total. A dispatch
-    /// never divides a cluster of one pair. If the host does not know the vertices (wrapped mesh, Mesh::cmdCopy()),
+    /// A dispatch tests at most 2^16 bricks and cells of large triangles per cluster, and 3.5e9 in total. It contains
+    /// all work of a cluster for one pair. If the host does not know the vertices (wrapped mesh, Mesh::cmdCopy()),
     /// only the number of clusters is bounded. Huge triangles of such a mesh beyond the device's own bound are
     /// undecided (docs/engine.md, Dispatch size limits). No other answer depends on this number.
     std::uint32_t clustersAtOnce = 0;

@@ -93,7 +93,7 @@ struct SolidFacts {
     double longestHole = 0;        ///< object units: length of the longest loop
     std::uint32_t nonManifold = 0; ///< edges of more than two triangles; allowed if their triangles cancel out
     bool inward = false;           ///< the signed volume is negative: triangles face inwards, which does not matter
-    /// Signed volume of the surface, object units^3, without bounds; meaningless for a mesh with holes.
+    /// Signed volume of the surface, object units^3: an estimate; meaningless for a mesh with holes.
     double signedVolume = 0;
 };
 /// Finds holes: directed edges that do not cancel out. Identifies vertices by coordinates, so a mesh without shared

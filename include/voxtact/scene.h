@@ -269,8 +269,8 @@ class Mesh {
     VOXTACT_API Result<void> cmdUpdate(VkCommandBuffer commandBuffer, std::span<const double> positions);
     /// Copies the vertices from the caller's buffer, with usage TRANSFER_SRC: three floats each in object space, at
     /// MeshOptions::vertexStride. Copies whole strides, but only 12 bytes of the last vertex. `offset`: bytes, a
-    /// multiple of 4. Waits for earlier commands that wrote the buffer. Vertices must be finite, which is not checked:
-    /// others invalidate the answers for their triangles. Far from the origin, floats lose precision: only vertices
+    /// multiple of 4. Waits for earlier commands that wrote the buffer. Vertices must be finite: a non-finite vertex,
+    /// which is not detected, invalidates the answers for its triangles. Far from the origin, floats lose precision: only vertices
     /// from host memory are stored relative to the mesh's centre. O(1) on the host.
     VOXTACT_API Result<void> cmdCopy(VkCommandBuffer commandBuffer, VkBuffer source, VkDeviceSize offset);
 

@@ -707,7 +707,7 @@ typedef enum vxt_paint {
     VXT_PAINT_MAX = 0x7fffffff
 } vxt_paint;
 
-/// A mesh at a pose, with its appearance: voxtact::SceneMesh and voxtact::MeshPaint. A black colour contains a -0.0.
+/// A mesh at a pose, with its appearance: voxtact::SceneMesh and voxtact::MeshPaint. -0.0 in a colour makes it black.
 typedef struct vxt_scene_mesh {
     size_t struct_size;
     const vxt_mesh* mesh;                           ///< required
