@@ -127,8 +127,8 @@ struct MeshReadOptions {
 /// glTF 2 or GLB, by the ending, ignoring case.
 ///
 /// glTF: applies node transforms, and skins and morph targets as stored. Reverses triangles of mirrored nodes, so they
-/// still face outward. Ignores animations and hidden nodes. Polygons become triangles: a fan around the first corner if it
-/// stays inside, else by ear clipping. All meshes of a file become one; points and lines are skipped. `notes` lists
+/// still face outward. Ignores animations and hidden nodes. Polygons become triangles: a fan around the first corner if
+/// it stays inside, else by ear clipping. All meshes of a file become one; points and lines are skipped. `notes` lists
 /// skipped parts and choices. Merges corners with bit-identical positions (-0 is 0), and removes unused vertices. Keeps
 /// degenerate triangles, and the order of the file. Coordinates are doubles; a loss by single precision gives a note.
 ///

@@ -270,8 +270,8 @@ class Mesh {
     /// Copies the vertices from the caller's buffer, with usage TRANSFER_SRC: three floats each in object space, at
     /// MeshOptions::vertexStride. Copies whole strides, but only 12 bytes of the last vertex. `offset`: bytes, a
     /// multiple of 4. Waits for earlier commands that wrote the buffer. Vertices must be finite: a non-finite vertex,
-    /// which is not detected, invalidates the answers for its triangles. Far from the origin, floats lose precision: only vertices
-    /// from host memory are stored relative to the mesh's centre. O(1) on the host.
+    /// which is not detected, invalidates the answers for its triangles. Far from the origin, floats lose precision:
+    /// only vertices from host memory are stored relative to the mesh's centre. O(1) on the host.
     VOXTACT_API Result<void> cmdCopy(VkCommandBuffer commandBuffer, VkBuffer source, VkDeviceSize offset);
 
     /// Refits the clusters of a wrapped mesh after the caller changed vertices or indices. Refuses a mesh that is not
