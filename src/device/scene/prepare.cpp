@@ -4,7 +4,7 @@
 #include "device/scene/bricks.h"
 #include "device/scene/scene_impl.h"
 
-#include <algorithm>
+#include <string>
 
 namespace voxtact {
 namespace {
@@ -30,6 +30,13 @@ bool isNull(const Resource& resource) {
     return std::visit([](const auto* object) { return object == nullptr; }, resource);
 }
 
+/// Unlike std::visit(), throws nothing.
+template <class Object> void release(const Resource& resource) noexcept {
+    if (Object* const* const object = std::get_if<Object*>(&resource); object != nullptr && *object != nullptr) {
+        (*object)->releaseStaging();
+    }
+}
+
 } // namespace
 
 Result<void> cmdPrepare(VkCommandBuffer commandBuffer, std::span<const Resource> resources) {
@@ -44,13 +51,10 @@ Result<void> cmdPrepare(VkCommandBuffer commandBuffer, std::span<const Resource>
 
 void retire(std::span<const Resource> resources) noexcept {
     for (const Resource& resource : resources) {
-        std::visit(
-            [](auto* object) {
-                if (object != nullptr) {
-                    object->releaseStaging();
-                }
-            },
-            resource);
+        release<Volume>(resource);
+        release<TransferFunction>(resource);
+        release<Mesh>(resource);
+        release<LabelMap>(resource);
     }
 }
 
