@@ -563,14 +563,14 @@ VXT_API void vxt_detector_destroy(vxt_detector* detector);
 
 /// Records, submits on the caller's queue, waits and reads: voxtact::BlockingDetector.
 typedef struct vxt_blocking_detector vxt_blocking_detector;
-/// Creates a certified detector. `most_contacts`: maximum number of contacts; a longer list is cut; 0: 2^16. A null
+/// Creates a certified detector. `max_contacts`: maximum number of contacts; a longer list is cut; 0: 2^16. A null
 /// `desc` has all defaults.
 VXT_CHECKED vxt_result vxt_blocking_detector_create_certified(const vxt_context* context,
                                                               const vxt_certified_desc* desc, const vxt_queue* queue,
-                                                              uint32_t most_contacts, vxt_blocking_detector** detector);
+                                                              uint32_t max_contacts, vxt_blocking_detector** detector);
 /// Like vxt_blocking_detector_create_certified(), for voxtact::RasterDesc.
 VXT_CHECKED vxt_result vxt_blocking_detector_create_raster(const vxt_context* context, const vxt_raster_desc* desc,
-                                                           const vxt_queue* queue, uint32_t most_contacts,
+                                                           const vxt_queue* queue, uint32_t max_contacts,
                                                            vxt_blocking_detector** detector);
 /// Answers for every pair. Blocks. After a failure `answer` is unchanged.
 VXT_CHECKED vxt_result vxt_blocking_detector_detect(vxt_blocking_detector* detector, const vxt_batch* batch,

@@ -82,15 +82,15 @@ void vxt_detector_destroy(vxt_detector* detector) {
 }
 
 vxt_result vxt_blocking_detector_create_certified(const vxt_context* context, const vxt_certified_desc* desc,
-                                                  const vxt_queue* queue, uint32_t most_contacts,
+                                                  const vxt_queue* queue, uint32_t max_contacts,
                                                   vxt_blocking_detector** detector) {
-    return makeBlocking(context, desc, queue, most_contacts, detector);
+    return makeBlocking(context, desc, queue, max_contacts, detector);
 }
 
 vxt_result vxt_blocking_detector_create_raster(const vxt_context* context, const vxt_raster_desc* desc,
-                                               const vxt_queue* queue, uint32_t most_contacts,
+                                               const vxt_queue* queue, uint32_t max_contacts,
                                                vxt_blocking_detector** detector) {
-    return makeBlocking(context, desc, queue, most_contacts, detector);
+    return makeBlocking(context, desc, queue, max_contacts, detector);
 }
 
 vxt_result vxt_blocking_detector_detect(vxt_blocking_detector* detector, const vxt_batch* batch, vxt_answer* answer) {

@@ -250,8 +250,8 @@ BoxMeasure::Behind BoxMeasure::behind(Values& values, const Sheet& sheet, double
         const double way = by.x * (end - values.centre.x);
         for (std::uint32_t i = 0; i < sheet.count; ++i) {
             const dvec3 at = sheet.corners[i] - values.centre;
-            const double beside = middle + by.y * at.y + by.z * at.z;
-            corners[i] = {at.y, at.z, end - sheet.corners[i].x, beside + by.x * at.x, beside + way};
+            const double aside = middle + by.y * at.y + by.z * at.z;
+            corners[i] = {at.y, at.z, end - sheet.corners[i].x, aside + by.x * at.x, aside + way};
         }
     };
     setValues(values.slope, values.middle);

@@ -11,7 +11,7 @@ namespace {
 
 using glm::dvec3;
 
-/// The steepness along an axis is not divided by where it changes by more, relative to it.
+/// Maximum relative change of the slope along an axis for a quotient by that slope.
 constexpr double kMaxChange = 0.5;
 
 /// The part of a unit cube where a * x + b * y + c * z < at, for a <= b <= c, which are 1 together, and at <= 1/2

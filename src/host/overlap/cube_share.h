@@ -28,12 +28,13 @@ struct GraphShare {
 /// Empty if there is no axis along which the function is monotonic and crosses `from` on each line.
 [[nodiscard]] std::optional<GraphShare> graphShare(const Trilinear& terms, double from) noexcept;
 
-/// A linear function whose sign says along each way along x where a trilinear one is no less than `from`.
+/// A linear function on the cube. Where it is farther than `off` from 0, it has the sign of a trilinear function minus
+/// `from`.
 struct LinearSign {
     glm::dvec3 slope{};
     double middle = 0;
-    double off = 0;    ///< where it is farther from 0, its sign is right
-    glm::dvec3 bent{}; ///< how much of that is gone when the cube is divided across an axis
+    double off = 0;
+    glm::dvec3 bent{}; ///< part of `off` that a division of the cube across each axis removes
 };
 [[nodiscard]] LinearSign linearSign(const Trilinear& terms, double from) noexcept;
 

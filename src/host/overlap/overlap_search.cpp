@@ -15,8 +15,8 @@ namespace {
 /// Maximum number of boxes divided to decide the containment, once the bounds are within the tolerance.
 constexpr std::uint64_t kMoreSteps = 2048;
 
-/// The sheets of a cell are divided until the bounds of each part are so near to each other at level 0, of a voxel; at
-/// each further level they are nearer by the factor. After the last level the cell is halved.
+/// Division of the sheets of a cell: maximum upper - lower of a part at level 0, of a voxel; its factor from one level
+/// to the next; and the number of levels, after which the cell is halved.
 constexpr double kSheetNear = 0x1p-5;
 constexpr double kSheetNearer = 0x1p-4;
 constexpr unsigned kSheetLevels = 4;
@@ -271,7 +271,8 @@ class OverlapSearch {
         open.volume = measure_.measure(open.box, sheets, open.base, open.near, &whole);
         sum.add(open.volume);
         if (open.volume.gain > 0) {
-            open.cost = 4 * static_cast<double>(measure_.parts() - before + 1); // the next level has about so many
+            open.cost =
+                4 * static_cast<double>(measure_.parts() - before + 1); // an estimate of the parts at the next level
             if (++open.level == kSheetLevels) {
                 open.by = OpenBox::By::Halves;
                 open.sheets = std::move(sheets);

@@ -204,7 +204,7 @@ class Scene(Measuring):
         """Decides whether each pose touches: a `Touch` with a row for each pose, in order.
 
         The mesh is its surface, unless `solid`: an opaque region that a closed mesh encloses without touching it is no
-        contact. The first question about a mesh warns if no pose touches and the first pose encloses one.
+        contact. The first answer without a touch of a mesh warns if its first pose encloses one.
 
         mesh, poses
             a mesh at poses, (N,4,4) or (4,4); or a list of (mesh, poses) alone

@@ -47,10 +47,9 @@ std::vector<std::string> windowNotes(const view::State& state) {
 std::vector<view::Offer> windowOffers(const view::State& state) {
     std::vector<view::Offer> offers;
     for (const view::Instrument& instrument : state.document.edit.instruments) {
-        view::Document document = state.saved();
-        view::MeshSource& source = document.sources.meshes[instrument.mesh];
-        const MeshOptions options{.sources = {}, .space = source.space, .scale = source.scale};
-        const ReadMesh read{source.path, options, state.bounds[instrument.mesh], {&instrument.world_from_object, 1}};
+        const view::MeshSource& given = state.document.sources.meshes[instrument.mesh];
+        const MeshOptions options{.sources = {}, .space = given.space, .scale = given.scale};
+        const ReadMesh read{given.path, options, state.bounds[instrument.mesh], {&instrument.world_from_object, 1}};
         if (placementOf(read, state.volume.grid).distance == 0) {
             continue;
         }
@@ -59,12 +58,13 @@ std::vector<view::Offer> windowOffers(const view::State& state) {
             continue;
         }
         const OtherReading& best = others.front();
-        std::string text = "the mesh " + source.path + " does not come near the volume; " + toText(best);
-        source.space = best.space.empty() ? source.space : best.space;
+        view::Document document = state.saved();
+        view::MeshSource& source = document.sources.meshes[instrument.mesh];
+        source.space = best.space.empty() ? given.space : best.space;
         source.scale = best.scale;
-        std::string path = source.path;
-        offers.push_back(
-            {std::move(text), "read it with " + best.options, {view::FileKind::Session, std::move(document), path}});
+        offers.push_back({"the mesh " + given.path + " does not come near the volume; " + toText(best),
+                          "read it with " + best.options,
+                          {view::FileKind::Session, std::move(document), given.path}});
     }
     return offers;
 }
