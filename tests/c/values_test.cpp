@@ -128,6 +128,37 @@ TEST(CValues, GridsOfLabelsAndVolumes) {
     EXPECT_EQ(std::memcmp(&found, &expected, sizeof found), 0);
 }
 
+TEST(CValues, LabelsOnAPartOfAGrid) {
+    Grid whole;
+    whole.size = {6, 7, 8};
+    Grid part;
+    part.size = {3, 3, 3};
+    part.origin = {1, 2, 3};
+    const VolumeData image = makeBytes(part, [](auto x, auto y, auto z) { return 1.0 + x + 3 * y + 9 * z; });
+    const vxt_volume_view view = cVolume(image);
+    const auto labels = made(vxt_labels_destroy, vxt_labels_create, &view);
+    vxt_grid given = cGrid(whole);
+    const auto onGrid = made(vxt_labels_destroy, vxt_labels_on_grid, labels.get(), &given);
+    vxt_grid found{};
+    need(vxt_labels_grid(onGrid.get(), &found));
+    EXPECT_EQ(std::memcmp(&found, &given, sizeof found), 0);
+    int inside = 0;
+    for (int voxel = 0; voxel < 6 * 7 * 8; ++voxel) {
+        const double centre[] = {double(voxel % 6), double(voxel / 6 % 7), double(voxel / 42)};
+        std::int32_t expected = -1;
+        std::int32_t label = -2;
+        need(vxt_labels_at(labels.get(), centre, &expected));
+        need(vxt_labels_at(onGrid.get(), centre, &label));
+        EXPECT_EQ(label, expected) << voxel;
+        inside += label > 0 ? 1 : 0;
+    }
+    EXPECT_EQ(inside, 27);
+    given.origin[0] += 0.5;
+    vxt_labels* none = nullptr;
+    EXPECT_EQ(vxt_labels_on_grid(labels.get(), &given, &none), VXT_ERROR_UNSUPPORTED);
+    EXPECT_EQ(none, nullptr);
+}
+
 TEST(CValues, AnAnswerOfTheDevice) {
     // By the method compute in the projection certified: many survivors; then none, and fragments undecided.
     constexpr std::uint32_t kHow = 4U | 3U << 8U;
