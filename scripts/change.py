@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""How many files does a change take? Applies tests/change/method.patch, a dummy counting method, and output.patch, a
-dummy output, to copies of the sources, and counts their files.
+"""How many files does a change take? Applies tests/change/method.patch, a dummy counting method, output.patch, a dummy
+output, and question.patch, a dummy question, to copies of the sources, and counts their files.
 
 usage: change.py [--build]
 
 --build: builds the programs of the copies too, and asks them whether the new method passes its self-test and counts
-what the others count, and whether the new output is the count. That takes as long as two builds. The exit status is 1
+what the others count, whether the new output is the count, and whether the new question has options, columns and an
+answer. That takes as long as three builds. The exit status is 1
 when a patch does not fit, takes more files than docs/change.md says, or what it adds is not right.
 """
 import argparse
@@ -20,6 +21,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 METHOD = "swap"
 OUTPUT = "again"
+QUESTION = "boxes"
 COPIED = ("CMakeLists.txt", "CMakePresets.json", "cmake", "include", "shaders", "src", "third_party", "LICENSE")
 
 
@@ -73,10 +75,20 @@ def check_output(program):
             fail(f"the output {OUTPUT} of {method} {projection} is not the count: {rows}")
 
 
+def check_question(program):
+    if "--border" not in run(program, QUESTION, "--help"):
+        fail(f"{QUESTION} --help has no option of the new fact")
+    scene = ("--volume", "builtin:head:32", "--mesh", "builtin:ellipsoid:320", "--format", "json", "--progress", "never")
+    rows = [json.loads(run(program, QUESTION, *scene, *border))["rows"] for border in ((), ("--border", 1))]
+    if not 0 < rows[0][0]["lower"] == rows[0][0]["upper"] < rows[1][0]["lower"]:
+        fail(f"the question {QUESTION} is not about the box of the mesh: {rows}")
+
+
 # Each with what docs/change.md says: the steps 1 to 3 of a counting method, and all of an output but its documentation.
 CHANGES = (
     ("a counting method", "method.patch", 5, "src/core/method/method_table.h", f'"{METHOD}"', check_method),
     ("an output", "output.patch", 7, "src/device/outputs/output_parts.cpp", f'"{OUTPUT}"', check_output),
+    ("a question", "question.patch", 6, "src/core/facts/facts.h", f'"{QUESTION}"', check_question),
 )
 
 

@@ -22,7 +22,7 @@ ARROWS = {
     "io": "core",
     "step": "io",
     "samples": "core",
-    "c": "core",
+    "c": "core host",
     "python": "",
     "cli": "core exact vulkan device host io render samples",
     "viewer": "core exact vulkan device host io render samples cli",

@@ -29,7 +29,7 @@ scripts/change.py --build || failed+=(change)
     cmake --build build/shared >build/shared.log 2>&1 && build/shared/voxtact info builtin:head >/dev/null; } ||
     failed+=(shared)
 if [ -x build/release/voxtact ]; then # the window: ten minutes of random input under validation
-    python3 -B tests/view/soak.py build/release/voxtact soak 600 || failed+=(soak)
+    python3 -B tests/view/window/soak.py build/release/voxtact soak 600 || failed+=(soak)
 fi
 
 if [ ${#failed[@]} -gt 0 ]; then

@@ -122,10 +122,10 @@ static void ask_the_host(const scene* s, vxt_answer* answer) {
                                 .world_from_object = s->world_from_object,
                                 .pose_count = 1};
     const vxt_pairs pairs = {.struct_size = sizeof pairs, .items = &item, .item_count = 1, .view = &s->view};
-    done(vxt_ask_count(engine, NULL, &pairs, answer)); /* null: all defaults */
+    done(vxt_ask(engine, "count", NULL, 0, &pairs, answer)); /* no settings: all defaults */
     print_answer(answer);
-    const vxt_distance question = {.struct_size = sizeof question, .tolerance = 0.1};
-    done(vxt_ask_distance(engine, &question, &pairs, answer));
+    const vxt_setting tolerance = {.name = "tolerance", .number = 0.1};
+    done(vxt_ask(engine, "distance", &tolerance, 1, &pairs, answer));
     printf("distance %g to %g mm\n", *(const double*)value_of(answer, "lower"),
            *(const double*)value_of(answer, "upper"));
 

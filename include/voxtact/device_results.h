@@ -73,14 +73,14 @@ struct CertifiedCounters {
     VOXTACT_TOTAL cellsLeft;    ///< cells tested for these shares, and decided if needed
     VOXTACT_UINT rounds;        ///< dispatches of each pass
     VOXTACT_UINT room;          ///< maximum number of clusters in a round: ResultsDesc::clustersAtOnce
-    VOXTACT_UINT mostClusters;  ///< peak of clustersKept
-    VOXTACT_UINT mostRuns;      ///< peak of runsKept
-    VOXTACT_UINT mostParts;     ///< peak of largeParts, including parts without room
-    VOXTACT_UINT mostCells;     ///< peak of cellsListed, including cells without room
-    VOXTACT_UINT mostOpen;      ///< peak of cellsOpen
-    VOXTACT_UINT mostLeft;      ///< peak of left
-    VOXTACT_UINT mostLooks;     ///< peak of bricksSeen and cellsSeen together
-    VOXTACT_UINT mostLooksLeft; ///< peak of bricksLeft and cellsLeft together
+    VOXTACT_UINT peakClusters;  ///< peak of clustersKept
+    VOXTACT_UINT peakRuns;      ///< peak of runsKept
+    VOXTACT_UINT peakParts;     ///< peak of largeParts, including parts without room
+    VOXTACT_UINT peakCells;     ///< peak of cellsListed, including cells without room
+    VOXTACT_UINT peakOpen;      ///< peak of cellsOpen
+    VOXTACT_UINT peakLeft;      ///< peak of left
+    VOXTACT_UINT peakTests;     ///< peak of bricksSeen and cellsSeen together
+    VOXTACT_UINT peakTestsLeft; ///< peak of bricksLeft and cellsLeft together
 };
 
 /// Bits of the float in a word of Results::bounds().

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -54,8 +55,12 @@ struct BandOverlap {
     std::uint32_t item = 0; ///< index of the BatchItem of the pair
     std::uint32_t pose = 0; ///< index of the pose in that item
     std::uint32_t band = 0; ///< from 0 to the number of limits
-    Bounds bounds;          ///< mm^3
-    StopReason end{};       ///< why the search stopped
+    /// The lower limit; negative infinity for band 0.
+    double from = -std::numeric_limits<double>::infinity();
+    /// The upper limit, which is excluded; infinity for the last band.
+    double below = std::numeric_limits<double>::infinity();
+    Bounds bounds{};  ///< mm^3
+    StopReason end{}; ///< why the search stopped
 };
 
 /// The overlap of one pair with the opaque part of a label: inside the boxes around the voxel centres for which

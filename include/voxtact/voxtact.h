@@ -14,12 +14,13 @@
 ///
 /// Structs: a struct that begins with `struct_size` can grow. Fill the struct with zeros, set `struct_size` to its
 /// `sizeof`, also where a function fills it, and set the members that you need:
-/// `vxt_distance question = {.struct_size = sizeof question, .tolerance = 0.1};`. A newer library uses the defaults of
-/// missing members; an older library refuses unknown members that are not zero. All elements of an array have the same
-/// `struct_size`. A struct without `struct_size` never changes.
+/// `vxt_pairs pairs = {.struct_size = sizeof pairs, .items = &item, .item_count = 1};`. A newer library uses the
+/// defaults of missing members; an older library refuses unknown members that are not zero. All elements of an array
+/// have the same `struct_size`. A struct without `struct_size` never changes.
 ///
 /// Defaults: 0 selects the default of a member; comments state defaults other than 0. Where 0 is also useful, a comment
-/// names -0.0, which selects 0. Null options and a null question select all defaults.
+/// names -0.0, which selects 0. Null options select all defaults. In a vxt_setting 0 is a value: for the default, leave
+/// out the setting.
 ///
 /// Values: world space is LPS, in mm. Image values are in the image's own units. A truth value is 0 or not 0. Text is
 /// UTF-8 and ends with a 0. Matrices are 16 doubles, column-major: the element in row r and column c is at [4 * c + r].
@@ -365,7 +366,7 @@ typedef enum vxt_exactness {
     VXT_EXACTNESS_MAX = 0x7fffffff
 } vxt_exactness;
 
-/// Additional outputs of a count: bits of `outputs`.
+/// Additional outputs of a detector: bits of `outputs`.
 typedef enum vxt_output {
     VXT_OUTPUT_TRIANGLES = 1, ///< triangles with passing fragments, and their counts
     VXT_OUTPUT_CONTACTS = 2,  ///< a contact per passing fragment, up to the capacity
@@ -460,77 +461,31 @@ typedef struct vxt_pairs {
     vxt_cancel* cancel;         ///< cancels the call; may be null
 } vxt_pairs;
 
-// ======== Questions: vxt_fact_get() returns the ranges and defaults of their numbers ========
+// ======== Questions ========
 
-/// Does the surface touch the opaque region? voxtact::Touch.
-typedef struct vxt_touch {
-    size_t struct_size;
-    double margin;               ///< mm: is anything opaque within this distance? Not with an uncertainty
-    double uncertainty_distance; ///< mm: tests all poses translated by at most this,
-    double uncertainty_angle;    ///< degrees: and rotated by at most this
-    uint32_t witness;            ///< 1: finds a witness point of each yes
-    uint32_t solid;              ///< 1: includes the inside of the mesh, which must be closed
-    double resolution;           ///< voxels
-    uint64_t max_steps;          ///< iteration limit per pair
-} vxt_touch;
+/// A setting of a question: its name and one value. vxt_fact_get() returns the kind of the value. A choice sets `text`,
+/// a list `numbers` or `labels`; the other two are null. A number, whole number or flag leaves all three null.
+typedef struct vxt_setting {
+    const char* name;      ///< "tolerance"
+    double number;         ///< value of a number or whole number; of a flag: 0 or 1
+    const char* text;      ///< value of a choice: one of its names
+    const double* numbers; ///< value of a list of numbers
+    const int32_t* labels; ///< value of a list of labels
+    size_t count;          ///< length of the list; with 0, too, the pointer must not be null
+} vxt_setting;
 
-/// How many fragments pass, and where? voxtact::Count.
-typedef struct vxt_count {
+/// A question about pairs: voxtact::NamedQuestion.
+typedef struct vxt_question {
     size_t struct_size;
-    vxt_projection projection;  ///< 0: VIEW
-    vxt_boundary boundary;      ///< 0: AUTO
-    uint32_t outputs;           ///< bits of vxt_output
-    uint32_t stop_at_first;     ///< 1: early exit: the count is 0 or 1, a lower bound; not with outputs
-    double max_depth;           ///< mm: maximum depth of a contact
-    double resolution;          ///< voxels, for CERTIFIED
-    uint32_t samples_per_voxel; ///< DOMINANT_AXIS: per voxel side; 1 to 16; 0: 1
-    uint32_t max_contacts;      ///< maximum number of contacts; a longer list is cut; 0: 2^20
-} vxt_count;
-
-/// How far is the surface from the opaque region? voxtact::Distance.
-typedef struct vxt_distance {
-    size_t struct_size;
-    double tolerance;      ///< mm: stop when upper - lower is at most this
-    double max;            ///< mm: stop when lower reaches this distance; 0: never
-    const int32_t* labels; ///< labels to measure to, instead of the opaque region; null: no labels
-    size_t label_count;    ///< length of `labels`
-    uint32_t any_opacity;  ///< 1: to whole labels, opaque or not
-    uint32_t solid;        ///< 1: includes the inside of the mesh, which must be closed; not with labels
-    double resolution;     ///< voxels
-    uint64_t max_steps;    ///< iteration limit per pair
-} vxt_distance;
-
-/// How much of the surface is in the opaque region? voxtact::Area.
-typedef struct vxt_area {
-    size_t struct_size;
-    double tolerance;      ///< mm^2: stop when upper - lower is at most this
-    const int32_t* labels; ///< labels to measure in, instead of the opaque region; null: no labels
-    size_t label_count;    ///< length of `labels`
-    uint32_t triangles;    ///< 1: also measures each triangle; not with labels
-    double resolution;     ///< voxels
-    uint64_t max_steps;    ///< iteration limit per pair
-} vxt_area;
-
-/// How much of the opaque region is inside a closed mesh, and of which values? voxtact::Overlap. INVALID_ARGUMENT for a
-/// mesh with holes: fill the holes by vxt_mesh_fill_holes().
-typedef struct vxt_overlap {
-    size_t struct_size;
-    double tolerance;          ///< mm^3: stop when upper - lower is at most this
-    const double* band_limits; ///< ascending values: one row per band; null: no bands
-    size_t band_limit_count;   ///< length of `band_limits`, at most 64
-    const int32_t* labels;     ///< one row per label; null: no labels
-    size_t label_count;        ///< length of `labels`
-    uint64_t max_steps;        ///< iteration limit per sum
-} vxt_overlap;
-
-/// What happens between consecutive poses of each item? voxtact::Motion. An item has one row fewer than poses.
-typedef struct vxt_motion {
-    size_t struct_size;
-    vxt_interpolation interpolation; ///< 0: SCREW
-    double resolution;               ///< mm: maximum motion from toi_lower to toi_upper
-    double touch_resolution;         ///< voxels
-    uint64_t max_steps;              ///< iteration limit per segment
-} vxt_motion;
+    const char* name;     ///< "touch"
+    const char* text;     ///< "does it touch?"
+    uint32_t measures;    ///< 1: the table `pairs` has bounds: the columns `lower` and `upper`
+    uint32_t least_worst; ///< 1: the worst pair has the smallest bounds; 0: the largest
+} vxt_question;
+/// Returns the number of questions: touch, count, distance, area, overlap, motion.
+VXT_API size_t vxt_question_count(void);
+/// Returns a question by index. The texts have static lifetime.
+VXT_CHECKED vxt_result vxt_question_get(size_t index, vxt_question* question);
 
 /// A region that paths must avoid: voxtact::cpu::PlanObstacle.
 typedef struct vxt_obstacle {
@@ -577,7 +532,7 @@ typedef struct vxt_plan {
 // ======== Answers ========
 
 /// Answers as tables. Each question has a table `pairs` (motion: `segments`, plan: `paths`) with one row per pair in
-/// order, further tables, and `totals` with one row. A reused answer keeps its memory.
+/// order, further tables, and `totals` with one row. A question replaces the answer in the object.
 typedef struct vxt_answer vxt_answer;
 /// Creates an empty answer.
 VXT_CHECKED vxt_result vxt_answer_create(vxt_answer** answer);
@@ -626,21 +581,12 @@ VXT_CHECKED vxt_result vxt_host_engine_create(uint32_t threads, vxt_host_engine*
 VXT_API uint32_t vxt_host_engine_threads(const vxt_host_engine* engine);
 VXT_API void vxt_host_engine_destroy(vxt_host_engine* engine);
 
-/// Answer a question for every pair. After a failure `answer` is unchanged.
-/// @{
-VXT_CHECKED vxt_result vxt_ask_touch(vxt_host_engine* engine, const vxt_touch* question, const vxt_pairs* pairs,
-                                     vxt_answer* answer);
-VXT_CHECKED vxt_result vxt_ask_count(vxt_host_engine* engine, const vxt_count* question, const vxt_pairs* pairs,
-                                     vxt_answer* answer);
-VXT_CHECKED vxt_result vxt_ask_distance(vxt_host_engine* engine, const vxt_distance* question, const vxt_pairs* pairs,
-                                        vxt_answer* answer);
-VXT_CHECKED vxt_result vxt_ask_area(vxt_host_engine* engine, const vxt_area* question, const vxt_pairs* pairs,
-                                    vxt_answer* answer);
-VXT_CHECKED vxt_result vxt_ask_overlap(vxt_host_engine* engine, const vxt_overlap* question, const vxt_pairs* pairs,
-                                       vxt_answer* answer);
-VXT_CHECKED vxt_result vxt_ask_motion(vxt_host_engine* engine, const vxt_motion* question, const vxt_pairs* pairs,
-                                      vxt_answer* answer);
-/// @}
+/// Answers a question for every pair: voxtact::ask(). Settings that are not in `settings` have their defaults. Refuses
+/// an unknown question or setting, a setting given twice, and a value of another kind or outside its range. An overlap
+/// needs closed meshes: vxt_mesh_fill_holes() fills holes. After a failure `answer` is unchanged. The C++ structs of
+/// the questions, such as voxtact::Touch, describe the settings.
+VXT_CHECKED vxt_result vxt_ask(vxt_host_engine* engine, const char* question, const vxt_setting* settings,
+                               size_t setting_count, const vxt_pairs* pairs, vxt_answer* answer);
 /// Answers a plan, which has no pairs. The question must not be null.
 VXT_CHECKED vxt_result vxt_ask_plan(vxt_host_engine* engine, const vxt_plan* question, vxt_answer* answer);
 
@@ -666,34 +612,43 @@ VXT_API void vxt_tracker_destroy(vxt_tracker* tracker);
 
 /// Limits and defaults that are whole numbers.
 typedef enum vxt_limit {
-    VXT_MAX_THREADS = 4096,              ///< threads of a host engine
-    VXT_MAX_TABLE_SIZE = 16777216,       ///< entries of a transfer function's table
-    VXT_MAX_SAMPLES_PER_VOXEL = 16,      ///< vxt_count::samples_per_voxel
-    VXT_MAX_ENTRIES = 3994242,           ///< vxt_plan::entries
-    VXT_DEFAULT_TABLE_SIZE = 256,        ///< entries of a transfer function's table
-    VXT_DEFAULT_ENTRIES = 1002,          ///< vxt_plan::entries
-    VXT_DEFAULT_PLAN_MAX = 10,           ///< mm, vxt_plan::max
-    VXT_DEFAULT_TOUCH_STEPS = 1048576,   ///< vxt_touch::max_steps
-    VXT_DEFAULT_DISTANCE_STEPS = 262144, ///< vxt_distance::max_steps
-    VXT_DEFAULT_AREA_STEPS = 262144,     ///< vxt_area::max_steps
-    VXT_DEFAULT_MOTION_STEPS = 1048576,  ///< vxt_motion::max_steps
-    VXT_DEFAULT_PLAN_STEPS = 262144,     ///< vxt_plan::max_steps
-    VXT_DEFAULT_TRACKER_STEPS = 512,     ///< vxt_tracker_create()
+    VXT_MAX_THREADS = 4096,          ///< threads of a host engine
+    VXT_MAX_TABLE_SIZE = 16777216,   ///< entries of a transfer function's table
+    VXT_MAX_SAMPLES_PER_VOXEL = 16,  ///< setting `samples_per_voxel` of count
+    VXT_MAX_ENTRIES = 3994242,       ///< vxt_plan::entries
+    VXT_DEFAULT_TABLE_SIZE = 256,    ///< entries of a transfer function's table
+    VXT_DEFAULT_ENTRIES = 1002,      ///< vxt_plan::entries
+    VXT_DEFAULT_PLAN_MAX = 10,       ///< mm, vxt_plan::max
+    VXT_DEFAULT_PLAN_STEPS = 262144, ///< vxt_plan::max_steps
+    VXT_DEFAULT_TRACKER_STEPS = 512, ///< vxt_tracker_create()
     VXT_LIMIT_MAX = 0x7fffffff
 } vxt_limit;
 
-/// Range and default of a number of a question. The texts have static lifetime.
+/// Kind of a setting's value.
+typedef enum vxt_fact_kind {
+    VXT_FACT_NUMBER = 0,  ///< a number in `unit`
+    VXT_FACT_WHOLE = 1,   ///< a whole number
+    VXT_FACT_FLAG = 2,    ///< 0 or 1
+    VXT_FACT_CHOICE = 3,  ///< one of `choices`
+    VXT_FACT_NUMBERS = 4, ///< a list of numbers
+    VXT_FACT_LABELS = 5,  ///< a list of labels
+    VXT_FACT_MAX = 0x7fffffff
+} vxt_fact_kind;
+
+/// Kind, range and default of a setting. The texts have static lifetime.
 typedef struct vxt_fact {
     size_t struct_size;
-    const char* question;  ///< "touch"; "scene": of every question
-    const char* name;      ///< member of its struct
+    const char* question;  ///< "touch"; "scene" and "plan": members of structs, not settings
+    const char* name;      ///< vxt_setting::name
     const char* unit;      ///< "mm", "mm^2", "degrees", "voxels"; "" for none
     const char* text;      ///< one line
-    const char* range;     ///< "from 1e-06 mm on"
-    double min;            ///< smallest value
-    double max;            ///< largest value
+    const char* range;     ///< "from 1e-06 mm on"; a flag: "0 or 1"; a choice: its names; a list: "a list"
+    double min;            ///< smallest number
+    double max;            ///< largest number
     double standard;       ///< the default, if has_standard is 1
-    uint32_t has_standard; ///< 0: the number is optional
+    uint32_t has_standard; ///< 0: the default is not a number, or the setting is optional
+    vxt_fact_kind kind;    ///< kind of the value
+    const char* choices;   ///< a choice: its names, comma-separated, the default first; else ""
 } vxt_fact;
 /// Returns the number of facts.
 VXT_API size_t vxt_fact_count(void);

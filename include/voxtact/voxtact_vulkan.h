@@ -517,14 +517,14 @@ typedef struct vxt_certified_counters {
     uint64_t cells_left;      ///< cells tested for these shares
     uint32_t rounds;          ///< dispatches of each pass
     uint32_t room;            ///< maximum number of clusters in a round
-    uint32_t most_clusters;   ///< peak of clusters_kept
-    uint32_t most_runs;       ///< peak of runs_kept
-    uint32_t most_parts;      ///< peak of large_parts
-    uint32_t most_cells;      ///< peak of cells_listed
-    uint32_t most_open;       ///< peak of cells_open
-    uint32_t most_left;       ///< peak of left
-    uint32_t most_looks;      ///< peak of bricks_seen and cells_seen together
-    uint32_t most_looks_left; ///< peak of bricks_left and cells_left together
+    uint32_t peak_clusters;   ///< peak of clusters_kept
+    uint32_t peak_runs;       ///< peak of runs_kept
+    uint32_t peak_parts;      ///< peak of large_parts
+    uint32_t peak_cells;      ///< peak of cells_listed
+    uint32_t peak_open;       ///< peak of cells_open
+    uint32_t peak_left;       ///< peak of left
+    uint32_t peak_tests;      ///< peak of bricks_seen and cells_seen together
+    uint32_t peak_tests_left; ///< peak of bricks_left and cells_left together
     uint64_t cells_certain;   ///< of cells_seen: opaque, with a triangle clearly inside; counted without a decision
 } vxt_certified_counters;
 

@@ -98,7 +98,7 @@ vxt_result vxt_blocking_detector_detect(vxt_blocking_detector* detector, const v
         BlockingDetector& by = need(detector, "detector").object;
         vxt_answer& to = need(answer, "answer");
         const DeviceBatch of(batch);
-        to = toAnswer(take(by.detect(of.batch())));
+        to.object = toTables(take(by.detect(of.batch())));
     });
 }
 

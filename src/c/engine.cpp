@@ -4,21 +4,22 @@
 #include "c/convert.h"
 #include "c/handles.h"
 #include "core/facts/facts.h"
+#include "voxtact/named_questions.h"
 
 using namespace voxtact;
 using namespace voxtact::c;
 
 namespace {
 
+static_assert(VXT_FACT_NUMBER == static_cast<int>(FactKind::Number));
+static_assert(VXT_FACT_LABELS == static_cast<int>(FactKind::Labels));
 static_assert(VXT_INTERPOLATION_SCREW == static_cast<int>(Interpolation::Screw));
 static_assert(VXT_INTERPOLATION_SLERP == static_cast<int>(Interpolation::Slerp));
 static_assert(VXT_MAX_THREADS == cpu::kMaxThreads && VXT_MAX_TABLE_SIZE == kMaxTableSize);
 static_assert(VXT_MAX_SAMPLES_PER_VOXEL == kMaxSamplesPerVoxel && VXT_MAX_ENTRIES == kMaxEntries);
 static_assert(VXT_DEFAULT_TABLE_SIZE == kDefaultTableSize && VXT_DEFAULT_ENTRIES == cpu::EntrySurface().entries);
 static_assert(VXT_DEFAULT_PLAN_MAX == static_cast<int>(kDefaultPlanMaximum));
-static_assert(VXT_DEFAULT_TOUCH_STEPS == Touch().maxSteps);
-static_assert(VXT_DEFAULT_DISTANCE_STEPS == Distance().maxSteps && VXT_DEFAULT_AREA_STEPS == Area().maxSteps);
-static_assert(VXT_DEFAULT_MOTION_STEPS == Motion().maxSteps && VXT_DEFAULT_PLAN_STEPS == cpu::Plan().maxSteps);
+static_assert(VXT_DEFAULT_PLAN_STEPS == cpu::Plan().maxSteps);
 static_assert(VXT_DEFAULT_TRACKER_STEPS == cpu::TrackerDesc().maxSteps);
 
 /// A number of the caller's, where 0 stands for the default.
@@ -28,104 +29,29 @@ template <class Number> void set(Number& to, Number given) noexcept {
     }
 }
 
-std::optional<std::vector<std::int32_t>> toLabels(const std::int32_t* labels, std::size_t count) {
-    if (labels == nullptr && count == 0) {
-        return std::nullopt;
+Setting toSetting(const vxt_setting& given) {
+    const std::string name = &need(given.name, "the name of a setting");
+    const int values =
+        (given.text != nullptr ? 1 : 0) + (given.numbers != nullptr ? 1 : 0) + (given.labels != nullptr ? 1 : 0);
+    if (values > 1) {
+        refuse(ErrorCode::InvalidArgument, "the setting '" + name + "' has more than one of text, numbers and labels");
     }
-    const std::span<const std::int32_t> given = toSpan(labels, count, "labels");
-    return std::vector<std::int32_t>(given.begin(), given.end());
-}
-
-Touch toQuestion(const vxt_touch& given) {
-    Touch out;
-    out.margin = given.margin;
-    if (given.uncertainty_distance != 0 || given.uncertainty_angle != 0) {
-        out.uncertainty = PoseTolerance{given.uncertainty_distance, given.uncertainty_angle};
+    if (given.text != nullptr) {
+        return {given.name, std::string_view(given.text)};
     }
-    out.witness = given.witness != 0;
-    out.solid = given.solid != 0;
-    set(out.resolution, given.resolution);
-    set(out.maxSteps, given.max_steps);
-    return out;
-}
-
-Count toQuestion(const vxt_count& given) {
-    Count out;
-    out.projection = number<Projection>(given.projection);
-    out.boundary = number<Boundary>(given.boundary);
-    out.outputs = toOutputs(given.outputs, given.max_depth == 0 ? kDefaultMaxDepth : given.max_depth);
-    out.stopAtFirst = given.stop_at_first != 0;
-    set(out.samplesPerVoxel, given.samples_per_voxel);
-    set(out.resolution, given.resolution);
-    set(out.maxContacts, given.max_contacts);
-    return out;
-}
-
-Distance toQuestion(const vxt_distance& given) {
-    Distance out;
-    set(out.tolerance, given.tolerance);
-    set(out.maximum, given.max);
-    out.labels = toLabels(given.labels, given.label_count);
-    out.labelsAtAnyOpacity = given.any_opacity != 0;
-    out.solid = given.solid != 0;
-    set(out.resolution, given.resolution);
-    set(out.maxSteps, given.max_steps);
-    return out;
-}
-
-Area toQuestion(const vxt_area& given) {
-    Area out;
-    set(out.tolerance, given.tolerance);
-    out.labels = toLabels(given.labels, given.label_count);
-    out.triangles = given.triangles != 0;
-    set(out.resolution, given.resolution);
-    set(out.maxSteps, given.max_steps);
-    return out;
-}
-
-Overlap toQuestion(const vxt_overlap& given) {
-    Overlap out;
-    set(out.tolerance, given.tolerance);
-    const std::span<const double> limits = toSpan(given.band_limits, given.band_limit_count, "band_limits");
-    out.bandLimits.assign(limits.begin(), limits.end());
-    const std::span<const std::int32_t> labels = toSpan(given.labels, given.label_count, "labels");
-    out.labels.assign(labels.begin(), labels.end());
-    set(out.maxSteps, given.max_steps);
-    return out;
-}
-
-Motion toQuestion(const vxt_motion& given) {
-    Motion out;
-    out.interpolation = number<Interpolation>(given.interpolation);
-    set(out.resolution, given.resolution);
-    set(out.touchResolution, given.touch_resolution);
-    set(out.maxSteps, given.max_steps);
-    return out;
+    if (given.numbers != nullptr) {
+        return {given.name, toSpan(given.numbers, given.count, name.c_str())};
+    }
+    if (given.labels != nullptr) {
+        return {given.name, toSpan(given.labels, given.count, name.c_str())};
+    }
+    return {given.name, given.number};
 }
 
 cpu::BatchItem toItem(const vxt_host_item& item, const std::string& which) {
     return {objectOf(item.mesh), objectOf(item.volume), objectOf(item.transfer_function),
             toPoses(item.world_from_object, item.pose_count, (which + ": world_from_object").c_str()),
             objectOf(item.labels)};
-}
-
-/// Answers one question for the pairs of the caller's.
-template <class Given>
-vxt_result ask(vxt_host_engine* engine, const Given* question, const vxt_pairs* pairs, vxt_answer* answer) {
-    return call([&] {
-        cpu::HostEngine& by = need(engine, "engine").object;
-        vxt_answer& to = need(answer, "answer");
-        const auto asked = toQuestion(readOptions(question, zero<Given>(), "question"));
-        const vxt_pairs given = readStruct(pairs, zero<vxt_pairs>(), "pairs");
-        std::vector<cpu::BatchItem> items;
-        for (const vxt_host_item& item : toSpan(given.items, given.item_count, "items")) {
-            items.push_back(toItem(item, "item " + std::to_string(items.size())));
-        }
-        to = toAnswer(take(by.ask(asked, cpu::Batch{.items = items,
-                                                    .view = toView(given.view),
-                                                    .threshold = thresholdOf(given.opacity_threshold),
-                                                    .cancel = objectOf(given.cancel)})));
-    });
 }
 
 cpu::PlanObstacle toObstacle(const vxt_obstacle& given) {
@@ -187,33 +113,25 @@ void vxt_host_engine_destroy(vxt_host_engine* engine) {
     delete engine;
 }
 
-vxt_result vxt_ask_touch(vxt_host_engine* engine, const vxt_touch* question, const vxt_pairs* pairs,
-                         vxt_answer* answer) {
-    return ask(engine, question, pairs, answer);
-}
-
-vxt_result vxt_ask_count(vxt_host_engine* engine, const vxt_count* question, const vxt_pairs* pairs,
-                         vxt_answer* answer) {
-    return ask(engine, question, pairs, answer);
-}
-
-vxt_result vxt_ask_distance(vxt_host_engine* engine, const vxt_distance* question, const vxt_pairs* pairs,
-                            vxt_answer* answer) {
-    return ask(engine, question, pairs, answer);
-}
-
-vxt_result vxt_ask_area(vxt_host_engine* engine, const vxt_area* question, const vxt_pairs* pairs, vxt_answer* answer) {
-    return ask(engine, question, pairs, answer);
-}
-
-vxt_result vxt_ask_overlap(vxt_host_engine* engine, const vxt_overlap* question, const vxt_pairs* pairs,
-                           vxt_answer* answer) {
-    return ask(engine, question, pairs, answer);
-}
-
-vxt_result vxt_ask_motion(vxt_host_engine* engine, const vxt_motion* question, const vxt_pairs* pairs,
-                          vxt_answer* answer) {
-    return ask(engine, question, pairs, answer);
+vxt_result vxt_ask(vxt_host_engine* engine, const char* question, const vxt_setting* settings, size_t setting_count,
+                   const vxt_pairs* pairs, vxt_answer* answer) {
+    return call([&] {
+        cpu::HostEngine& by = need(engine, "engine").object;
+        vxt_answer& to = need(answer, "answer");
+        const std::string_view asked = &need(question, "question");
+        std::vector<Setting> given;
+        std::ranges::transform(toSpan(settings, setting_count, "settings"), std::back_inserter(given), toSetting);
+        const vxt_pairs of = readStruct(pairs, zero<vxt_pairs>(), "pairs");
+        std::vector<cpu::BatchItem> items;
+        for (const vxt_host_item& item : toSpan(of.items, of.item_count, "items")) {
+            items.push_back(toItem(item, "item " + std::to_string(items.size())));
+        }
+        to.object = take(ask(by, asked, given,
+                             cpu::Batch{.items = items,
+                                        .view = toView(of.view),
+                                        .threshold = thresholdOf(of.opacity_threshold),
+                                        .cancel = objectOf(of.cancel)}));
+    });
 }
 
 vxt_result vxt_ask_plan(vxt_host_engine* engine, const vxt_plan* question, vxt_answer* answer) {
@@ -224,7 +142,7 @@ vxt_result vxt_ask_plan(vxt_host_engine* engine, const vxt_plan* question, vxt_a
         std::vector<cpu::PlanObstacle> obstacles;
         std::ranges::transform(toSpan(given.obstacles, given.obstacle_count, "obstacles"),
                                std::back_inserter(obstacles), toObstacle);
-        to = toAnswer(take(by.ask(toPlan(given, obstacles))));
+        to.object = toTables(take(by.ask(toPlan(given, obstacles))));
     });
 }
 
@@ -300,6 +218,25 @@ vxt_result vxt_labels_along(const vxt_labels* labels, const double from[3], cons
     });
 }
 
+size_t vxt_question_count(void) {
+    return namedQuestions().size();
+}
+
+vxt_result vxt_question_get(size_t index, vxt_question* question) {
+    return call([&] {
+        if (index >= namedQuestions().size()) {
+            refuse(ErrorCode::NotReady, "there is no question " + std::to_string(index));
+        }
+        const NamedQuestion& of = namedQuestions()[index];
+        vxt_question out = zero<vxt_question>();
+        out.name = of.name.data();
+        out.text = of.text.data();
+        out.measures = of.measures ? 1 : 0;
+        out.least_worst = of.isLeastWorst ? 1 : 0;
+        writeStruct(question, out, "question");
+    });
+}
+
 size_t vxt_fact_count(void) {
     return kFacts.size();
 }
@@ -325,6 +262,8 @@ vxt_result vxt_fact_get(size_t index, vxt_fact* fact) {
         out.max = of.max;
         out.standard = of.standard.value_or(0);
         out.has_standard = of.standard ? 1 : 0;
+        out.kind = static_cast<vxt_fact_kind>(of.kind);
+        out.choices = of.choices.data();
         writeStruct(fact, out, "fact");
     });
 }

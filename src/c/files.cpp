@@ -59,7 +59,7 @@ io::PoseFormat toPoseFormat(const char* name) {
         for (const io::PoseFormat one : io::poseFormats()) {
             known += (known.empty() ? "" : ", ") + std::string(toString(one));
         }
-        refuse(ErrorCode::InvalidArgument, "format '" + std::string(name) + "' is not known; there are: " + known);
+        refuse(ErrorCode::InvalidArgument, "format '" + std::string(name) + "' is unknown; choose from: " + known);
     }
     return *format;
 }

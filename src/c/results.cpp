@@ -59,19 +59,19 @@ vxt_certified_counters fromCounters(const CertifiedCounters& from) noexcept {
     out.cells_left = from.cellsLeft;
     out.rounds = from.rounds;
     out.room = from.room;
-    out.most_clusters = from.mostClusters;
-    out.most_runs = from.mostRuns;
-    out.most_parts = from.mostParts;
-    out.most_cells = from.mostCells;
-    out.most_open = from.mostOpen;
-    out.most_left = from.mostLeft;
-    out.most_looks = from.mostLooks;
-    out.most_looks_left = from.mostLooksLeft;
+    out.peak_clusters = from.peakClusters;
+    out.peak_runs = from.peakRuns;
+    out.peak_parts = from.peakParts;
+    out.peak_cells = from.peakCells;
+    out.peak_open = from.peakOpen;
+    out.peak_left = from.peakLeft;
+    out.peak_tests = from.peakTests;
+    out.peak_tests_left = from.peakTestsLeft;
     return out;
 }
 
 /// The host copy of results, which `pairs` is a part of.
-vxt_answer toAnswer(Results& results, std::span<const PairResult> pairs, bool timestamps) {
+AnswerTables answerOf(Results& results, std::span<const PairResult> pairs, bool timestamps) {
     BatchAnswer answer;
     answer.pairs.reserve(pairs.size());
     for (const PairResult& pair : pairs) {
@@ -84,7 +84,7 @@ vxt_answer toAnswer(Results& results, std::span<const PairResult> pairs, bool ti
     if (timestamps) {
         answer.gpuMilliseconds = take(results.gpuMilliseconds());
     }
-    return voxtact::c::toAnswer(answer);
+    return toTables(std::move(answer));
 }
 
 } // namespace
@@ -111,17 +111,17 @@ vxt_result vxt_results_read(vxt_results* results, vxt_answer* answer) {
     return call(results, [&] {
         OwnOrSlot& from = need(results, "results").object;
         vxt_answer& to = need(answer, "answer");
-        to = toAnswer(from.get(), take(from.get().read()), from.timestamps);
+        to.object = answerOf(from.get(), take(from.get().read()), from.timestamps);
     });
 }
 
 vxt_result vxt_answer_counters(const vxt_answer* answer, vxt_certified_counters* counters) {
     return call([&] {
         const vxt_answer& from = need(answer, "answer");
-        if (!from.counters) {
+        if (!from.object.counters) {
             refuse(ErrorCode::NotReady, "the answer has no counters: its detector was made without them");
         }
-        writeStruct(counters, fromCounters(*from.counters), "counters");
+        writeStruct(counters, fromCounters(*from.object.counters), "counters");
     });
 }
 
@@ -161,7 +161,7 @@ vxt_result vxt_result_ring_read(vxt_result_ring* ring, uint64_t frame, vxt_answe
         vxt_answer& to = need(answer, "answer");
         const std::span<const PairResult> pairs = take(from.ring.read(frame));
         OwnOrSlot& slot = from.slots[frame % from.slots.size()].object;
-        to = toAnswer(slot.get(), pairs, slot.timestamps);
+        to.object = answerOf(slot.get(), pairs, slot.timestamps);
     });
 }
 

@@ -2,24 +2,22 @@
 #pragma once
 
 #include "cli/options/shared_options.h"
+#include "voxtact/named_questions.h"
 
-/// One function a subcommand: adds it, with its options, to the program.
+/// Functions that add a subcommand with its options to the program.
 namespace voxtact::app {
 
-[[nodiscard]] Command addTouch(CLI::App& program);
-[[nodiscard]] Command addCount(CLI::App& program);
-[[nodiscard]] Command addDistance(CLI::App& program);
-[[nodiscard]] Command addArea(CLI::App& program);
-[[nodiscard]] Command addOverlap(CLI::App& program);
+/// Adds the subcommands of all questions.
+[[nodiscard]] std::vector<Command> addQuestions(CLI::App& program);
+[[nodiscard]] Command addMotion(CLI::App& program, const NamedQuestion& question);
 [[nodiscard]] Command addDevices(CLI::App& program);
 [[nodiscard]] Command addInfo(CLI::App& program);
-[[nodiscard]] Command addMotion(CLI::App& program);
 [[nodiscard]] Command addPlan(CLI::App& program);
 [[nodiscard]] Command addRender(CLI::App& program);
-/// `make` has commands of its own: mesh, volume, poses.
+/// Adds `make` with its own subcommands: mesh, volume, poses.
 [[nodiscard]] std::vector<Command> addMake(CLI::App& program);
 
-/// Subcommands that are programs of their own, started from the folder of this one.
+/// Adds the subcommands that run other programs from the folder of this one.
 [[nodiscard]] std::vector<Command> addOtherPrograms(CLI::App& program);
 
 } // namespace voxtact::app

@@ -11,9 +11,10 @@ namespace {
 using namespace voxtact::app;
 
 std::vector<Command> addCommands(CLI::App& program) {
-    std::vector<Command> commands{addTouch(program),   addCount(program),  addDistance(program), addArea(program),
-                                  addOverlap(program), addMotion(program), addPlan(program),     addRender(program),
-                                  addInfo(program),    addDevices(program)};
+    std::vector<Command> commands = addQuestions(program);
+    for (const auto add : {addPlan, addRender, addInfo, addDevices}) {
+        commands.push_back(add(program));
+    }
     for (const auto add : {addMake, addOtherPrograms}) {
         std::ranges::move(add(program), std::back_inserter(commands));
     }

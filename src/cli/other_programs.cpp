@@ -27,7 +27,7 @@ constexpr std::array<OtherProgram, 3> kOtherPrograms{{
     {"bench", "verify and time the engines (voxtact-bench)", "voxtact-bench", "bench", "./run test"},
 }};
 
-/// Replaces this process; returns where that fails.
+/// Replaces this process; returns only on failure.
 Outcome become(const OtherProgram& other, const std::vector<std::string>& arguments) {
     std::error_code error;
     const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);

@@ -25,7 +25,7 @@ const CLI::App* deepest(const CLI::App& program) {
     return app;
 }
 
-/// "make mesh"
+/// Returns the full name: "make mesh".
 std::string commandName(const CLI::App* app) {
     std::string name;
     for (; app->get_parent() != nullptr; app = app->get_parent()) {
@@ -74,13 +74,13 @@ std::string parseErrorText(const CLI::App& program, const CLI::ParseError& error
         }
     }
     if (!app->get_subcommands({}).empty()) {
-        return "a command is needed" + help;
+        return "no command" + help;
     }
     return error.what() + help;
 }
 
 int finish(const std::string& command, const Outcome& outcome) {
-    // A closed pipe is no error; a missing file still is.
+    // Ignores a closed pipe, but reports a missing file.
     if (outcome.status == kExitFailed && standardOutputIsClosed() && !writesFiles()) {
         return kExitDone;
     }
@@ -119,7 +119,7 @@ int run(const ProgramDesc& desc, std::vector<std::string> arguments) {
                 arguments.pop_back(); // an unknown command
             }
         }
-        std::ranges::reverse(arguments); // as CLI11 wants them
+        std::ranges::reverse(arguments); // the order that CLI11 expects
         program.parse(std::move(arguments));
     } catch (const CLI::CallForHelp&) {
         return printed(writeStandardOutput(program.help()));
@@ -134,13 +134,13 @@ int run(const ProgramDesc& desc, std::vector<std::string> arguments) {
             return finish(commandName(command.parser), command.run());
         }
     }
-    return finish("", Outcome(kExitArguments, "a command is needed; see voxtact --help"));
+    return finish("", Outcome(kExitArguments, "no command; see voxtact --help"));
 }
 
 std::terminate_handler standardHandler = nullptr;
 
-/// Handles exceptions that must not pass, without memory: destructors of JSON allocate while they destroy. No other
-/// destructor may run then, so the process ends immediately.
+/// Handles exceptions without allocating: destructors of JSON allocate. No other destructor may run, so the process
+/// ends immediately.
 [[noreturn]] void onTerminate() noexcept {
     try {
         if (std::current_exception() != nullptr) {

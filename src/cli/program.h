@@ -8,14 +8,14 @@
 
 namespace voxtact::app {
 
-/// A program: its subcommands, and the texts of its `--help`.
+/// Subcommands and `--help` texts of a program.
 struct ProgramDesc {
     const char* description;
     const char* footer;
     std::vector<Command> (*addCommands)(CLI::App& program);
 };
 
-/// Runs the subcommand that the arguments behind the program's name ask for. Returns the exit status; does not throw.
+/// Runs the subcommand of the arguments, which begin with the program name. Returns the exit status; does not throw.
 [[nodiscard]] int runProgram(const ProgramDesc& desc, std::vector<std::string> arguments);
 
 } // namespace voxtact::app

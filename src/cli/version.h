@@ -7,7 +7,7 @@ namespace voxtact::app {
 
 [[nodiscard]] const char* programVersion() noexcept;
 [[nodiscard]] const char* gitRevision() noexcept;
-/// Version, git revision, Vulkan headers, glslang: a line each.
+/// Returns version, git revision, Vulkan headers and glslang, one per line.
 [[nodiscard]] std::string versionText();
 
 } // namespace voxtact::app

@@ -163,7 +163,7 @@ Result<VkSurfaceKHR> makeSurface(const device::Session& session, GLFWwindow* win
 std::string windowSystemReason() {
     const char* text = nullptr;
     glfwGetError(&text);
-    return text != nullptr ? text : "no reason is known";
+    return text != nullptr ? text : "unknown reason";
 }
 
 } // namespace voxtact::view

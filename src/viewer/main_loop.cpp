@@ -37,11 +37,10 @@ Question coarserQuestion(const Error& error, const Given& given, std::uint32_t f
     question.title = "The volume is too large";
     const double voxel = *std::ranges::max_element(given.volume.grid.spacing) * factor / given.coarserBy;
     char text[160];
-    std::snprintf(
-        text, sizeof text,
-        "A copy that is coarser by %u can be shown instead: what is thinner than %.3g mm may be gone in it, and "
-        "answers are of the copy.",
-        factor, voxel);
+    std::snprintf(text, sizeof text,
+                  "A copy that is coarser by %u can be shown instead. It may lose structures thinner than %.3g mm, and "
+                  "answers refer to the copy.",
+                  factor, voxel);
     question.text = error.text + ".\n\n" + text;
     question.buttons = {"show the coarser copy", "cancel"};
     return question;
@@ -50,8 +49,8 @@ Question coarserQuestion(const Error& error, const Given& given, std::uint32_t f
 Question missingQuestion(const std::vector<MissingFile>& files, const std::string& session) {
     Question question;
     question.kind = Question::Kind::Missing;
-    question.title = "Files of the session are gone";
-    question.text = "'" + session + "' is about files that are not where they were. Where are they now?";
+    question.title = "Files of the session are missing";
+    question.text = "'" + session + "' refers to files that do not exist. Enter their new paths.";
     question.files = files;
     question.buttons = {"open", "cancel"};
     return question;
@@ -151,7 +150,7 @@ Result<void> MainLoop::show() {
             return shown;
         }
         VOXTACT_TRY(frames_->renewSurface([this] { return makeSurface(*session_, window_); }));
-        state.say("the window's surface was lost, and made again");
+        state.say("the surface of the window was lost and created again");
     }
     const double milliseconds = millisecondsSince(shown_);
     shown_ = Clock::now();
@@ -240,9 +239,9 @@ void MainLoop::takeScreenshot() {
 
 void MainLoop::tellOfPicture(const Result<void>& written, const std::string& path) {
     if (written.ok()) {
-        state_->say("the picture is in " + path);
+        state_->say("saved the picture as " + path);
     } else if (written.error().code == ErrorCode::Cancelled) {
-        state_->say("cancelled; no picture is written");
+        state_->say("cancelled; no picture was written");
     } else {
         state_->complain(written.error().text);
     }

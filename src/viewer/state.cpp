@@ -119,7 +119,7 @@ void State::drill(const Vec3& centre) {
         return;
     }
     if (hole->before == hole->after) {
-        say("nothing to drill there: no voxel changes");
+        say("drilling there changes no voxel");
         return;
     }
     addHole(std::move(*hole), {centre, drillRadius});

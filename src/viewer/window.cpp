@@ -41,9 +41,9 @@ Question lostQuestion(const std::string& device, const Error& error) {
     question.title = "The device was lost";
     question.text =
         "'" + device + "' was lost: " + error.text +
-        ".\n\nIt was started again. Scene, poses and transfer function are as they were, and the host (cpu) "
-        "answers now.";
-    question.buttons = {"go on with the host", "let the device answer again"};
+        ".\n\nThe device was restarted. Scene, poses and transfer function are unchanged. The host (cpu) answers "
+        "now.";
+    question.buttons = {"continue with the host", "use the device again"};
     return question;
 }
 
@@ -54,7 +54,7 @@ Error rescued(const Error& error, const Document& document) {
     std::error_code failed;
     std::filesystem::create_directories(path.parent_path(), failed);
     if (!stateFolder().empty() && writeSession(path, document).ok()) {
-        out.text += "; what was shown is kept: voxtact view --session " + path.string();
+        out.text += "; to restore the contents: voxtact view --session " + path.string();
     }
     return out;
 }
@@ -116,7 +116,7 @@ class Devices {
 Result<std::unique_ptr<Display>> Display::open() {
     if (glfwInit() != GLFW_TRUE) {
         return Error{ErrorCode::Unsupported, 0,
-                     "there is no display to open a window on (" + windowSystemReason() +
+                     "no display for a window (" + windowSystemReason() +
                          "); voxtact render makes pictures without one"};
     }
     std::unique_ptr<Display> display(new Display);

@@ -4,7 +4,7 @@
 #include "core/base/shared_impl.h"
 #include "vulkan/device_functions.h"
 #include "vulkan/kept_pipelines.h"
-#include "vulkan/memory.h"
+#include "vulkan/memory/memory.h"
 #include "vulkan/requirements.h"
 
 #include <array>

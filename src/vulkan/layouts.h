@@ -2,7 +2,7 @@
 #pragma once
 
 #include "exact/shared.h"
-#include "vulkan/memory.h"
+#include "vulkan/memory/memory.h"
 
 #include <algorithm>
 

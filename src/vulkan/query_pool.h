@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "vulkan/memory.h"
+#include "vulkan/memory/memory.h"
 
 #include <cstdint>
 

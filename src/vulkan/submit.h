@@ -3,7 +3,7 @@
 
 #include "core/base/try.h"
 #include "voxtact/context.h"
-#include "vulkan/memory.h"
+#include "vulkan/memory/memory.h"
 
 namespace voxtact {
 

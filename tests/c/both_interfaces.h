@@ -2,9 +2,13 @@
 #pragma once
 
 #include "cpu/scenes/random_scene.h"
+#include "settings.h"
 #include "support/c_calls.h"
+#include "support/scenes.h"
 #include "support/take.h"
 #include "voxtact/cpu.h"
+
+#include <utility>
 
 namespace voxtact::test {
 
@@ -22,18 +26,35 @@ inline Grid millimetreGrid(std::uint32_t side) {
     return made(vxt_cancel_destroy, vxt_cancel_create);
 }
 
-// One name for all questions.
-#define VOXTACT_ASK(question)                                                                                          \
-    inline vxt_result askC(vxt_host_engine* engine, const vxt_##question* asked, const vxt_pairs* pairs,               \
-                           vxt_answer* answer) {                                                                       \
-        return vxt_ask_##question(engine, asked, pairs, answer);                                                       \
+/// Like vxt_ask().
+[[nodiscard]] inline vxt_result askC(vxt_host_engine* engine, const char* question, const Settings& settings,
+                                     const vxt_pairs* pairs, vxt_answer* answer) {
+    return vxt_ask(engine, question, settings.data(), settings.size(), pairs, answer);
+}
+
+/// A closed mesh: a cube whose triangles all face outwards.
+[[nodiscard]] inline MeshData closedCube(double lo, double hi) {
+    MeshData cube = makeCube(lo, hi);
+    for (const std::size_t triangle : {0, 1, 4, 5, 8, 9}) {
+        std::swap(cube.indices[3 * triangle + 1], cube.indices[3 * triangle + 2]);
     }
-VOXTACT_ASK(touch)
-VOXTACT_ASK(count)
-VOXTACT_ASK(distance)
-VOXTACT_ASK(area)
-VOXTACT_ASK(motion)
-#undef VOXTACT_ASK
+    return cube;
+}
+
+/// A mesh that touches, one that does not, and a small one on the way, with a label that is not opaque anywhere.
+[[nodiscard]] inline RandomScene plainScene() {
+    RandomScene scene;
+    scene.volume = makeBytes(millimetreGrid(16), [](auto x, auto...) { return x < 4 ? 255.0 : 0.0; });
+    scene.points = {{100, 0}, {200, 1}};
+    scene.domain = {0, 255};
+    scene.mesh = makeCube(0, 2);
+    scene.poses = {translation({5, 7, 7}), translation({2.3, 7, 7}), translation({9.2, 3, 4})};
+    scene.view = {framingCamera(scene.volume.grid, 32, 32), 32, 32};
+    return scene;
+}
+[[nodiscard]] inline VolumeData plainLabels() {
+    return makeBytes(millimetreGrid(16), [](auto x, auto...) { return x >= 12 ? 4.0 : 0.0; });
+}
 
 /// A scene through both interfaces.
 struct BothInterfaces {
@@ -78,13 +99,12 @@ struct BothInterfaces {
                     scene.poses.data()->data(), scene.poses.size(),  cLabels.get()};
         out.pairs = {sizeof out.pairs, &out.item, 1, &out.view, scene.threshold, nullptr};
     }
-    template <class Question>
-    [[nodiscard]] Owned<vxt_answer> byC(vxt_host_engine& engine, const Question& question,
+    [[nodiscard]] Owned<vxt_answer> byC(vxt_host_engine& engine, const char* question, const Settings& settings,
                                         const RandomScene& scene) const {
         CPairs c;
         fill(c, scene);
         Owned<vxt_answer> answer = newAnswer();
-        need(askC(&engine, &question, &c.pairs, answer.get()));
+        need(askC(&engine, question, settings, &c.pairs, answer.get()));
         return answer;
     }
 };

@@ -239,7 +239,7 @@ TEST_F(CFiles, TextsBecomeArrays) {
     EXPECT_TRUE(std::equal(matrices, matrices + 16, vxt_poses_get(turned.get(), &count)));
     vxt_poses* none = nullptr;
     EXPECT_EQ(vxt_read_poses(rigid.c_str(), "wxyz", &none), VXT_ERROR_INVALID_ARGUMENT);
-    EXPECT_THAT(vxt_last_error(nullptr), HasSubstr("format 'wxyz' is not known; there are: matrix, t-xyzw"));
+    EXPECT_THAT(vxt_last_error(nullptr), HasSubstr("format 'wxyz' is unknown; choose from: matrix, t-xyzw"));
     double camera[16] = {};
     need(vxt_read_camera(file.c_str(), camera));
     EXPECT_EQ(camera[13], 6);

@@ -32,7 +32,7 @@ class CEngine : public testing::Test {
         both_.emplace(scene_, makeLabelImage(random_, scene_.volume.grid));
         both_->fill(c_, scene_);
     }
-    [[nodiscard]] BatchAnswer byC() const { return answerOf(*both_->byC(*engine_, sized<vxt_count>(), scene_)); }
+    [[nodiscard]] BatchAnswer byC() const { return answerOf(*both_->byC(*engine_, "count", {}, scene_)); }
     [[nodiscard]] BatchAnswer byCpp() { return both_->byCpp(cpp_, Count{}, scene_); }
     [[nodiscard]] std::uint64_t count() const { return byC().pairs.at(0).count; }
 
@@ -110,21 +110,19 @@ TEST_F(CEngine, HasTheDefaultThresholdForZero) {
 
 TEST_F(CEngine, LeavesTheAnswerAsItWasAfterAFailure) {
     const Owned<vxt_answer> answer = newAnswer();
-    need(vxt_ask_count(engine_.get(), nullptr, &c_.pairs, answer.get()));
+    need(askC(engine_.get(), "count", {}, &c_.pairs, answer.get()));
     const BatchAnswer before = answerOf(*answer);
     c_.item.mesh = nullptr;
-    EXPECT_EQ(vxt_ask_count(engine_.get(), nullptr, &c_.pairs, answer.get()), VXT_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(askC(engine_.get(), "count", {}, &c_.pairs, answer.get()), VXT_ERROR_INVALID_ARGUMENT);
     EXPECT_THAT(vxt_last_error(nullptr), HasSubstr("mesh"));
     EXPECT_EQ(wholeDifferenceOf(answerOf(*answer), before), "");
     // No camera is needed where the projection has none.
     c_.item.mesh = both_->cMeshHandle.get();
     c_.pairs.view = nullptr;
-    vxt_count certified = sized<vxt_count>();
-    certified.projection = VXT_PROJECTION_CERTIFIED;
-    need(vxt_ask_count(engine_.get(), &certified, &c_.pairs, answer.get()));
+    need(askC(engine_.get(), "count", {{"projection", "certified"}}, &c_.pairs, answer.get()));
     EXPECT_EQ(answerOf(*answer).pairs.size(), 1U);
     // Another question has other columns.
-    need(vxt_ask_area(engine_.get(), nullptr, &c_.pairs, answer.get()));
+    need(askC(engine_.get(), "area", {}, &c_.pairs, answer.get()));
     vxt_column column = sized<vxt_column>();
     EXPECT_EQ(vxt_answer_find(answer.get(), "pairs", "count", &column), VXT_ERROR_NOT_READY);
     EXPECT_EQ(readColumn<double>(*answer, "pairs", "lower").size(), 1U);
@@ -137,7 +135,7 @@ TEST_F(CEngine, IsCancelled) {
     c_.item.pose_count = poses.size();
     c_.pairs.cancel = cancel.get();
     const Owned<vxt_answer> answer = newAnswer();
-    const auto ask = [&] { return vxt_ask_touch(engine_.get(), nullptr, &c_.pairs, answer.get()); };
+    const auto ask = [&] { return askC(engine_.get(), "touch", {}, &c_.pairs, answer.get()); };
     std::thread other([&] { vxt_cancel_set(cancel.get(), 1); }); // before the call or in it
     EXPECT_EQ(ask(), VXT_ERROR_CANCELLED);
     other.join();
@@ -179,7 +177,7 @@ TEST_F(CEngine, RunsBesideOthers) {
             const Owned<vxt_host_engine> own = newEngine();
             difference = "";
             for (int i = 0; i < 50; ++i) {
-                difference += wholeDifferenceOf(answerOf(*both_->byC(*own, sized<vxt_count>(), scene_)), expected);
+                difference += wholeDifferenceOf(answerOf(*both_->byC(*own, "count", {}, scene_)), expected);
             }
         });
     }
@@ -202,15 +200,13 @@ template <class Enum> std::string namesOf() {
 }
 
 TEST_F(CEngine, AnswersDescribeTheirColumns) {
+    RandomScene scene = scene_;
+    scene.mesh = closedCube(0.2, 0.8); // an overlap is that of a closed mesh
+    const BothInterfaces both(scene, makeLabelImage(random_, scene.volume.grid));
     std::vector<std::pair<const char*, Owned<vxt_answer>>> answers;
-    const auto ask = [&]<class Question>(const char* name, Question question) {
-        answers.emplace_back(name, both_->byC(*engine_, question, scene_));
-    };
-    ask("touch", sized<vxt_touch>());
-    ask("count", sized<vxt_count>());
-    ask("distance", sized<vxt_distance>());
-    ask("area", sized<vxt_area>());
-    ask("motion", sized<vxt_motion>());
+    for (const char* const question : questionNames()) {
+        answers.emplace_back(question, both.byC(*engine_, question, {}, scene));
+    }
     vxt_obstacle obstacle{};
     obstacle.volume = c_.item.volume;
     obstacle.transfer_function = c_.item.transfer_function;
@@ -224,14 +220,15 @@ TEST_F(CEngine, AnswersDescribeTheirColumns) {
 
     const std::map<std::string, std::string> ends{{"distance", namesOf<StopReason>()},
                                                   {"area", namesOf<StopReason>()},
+                                                  {"overlap", namesOf<StopReason>()},
                                                   {"motion", namesOf<MotionEnd>()},
                                                   {"plan", namesOf<StopReason>()}};
     const std::map<std::string, std::string> choices{
         {"touch", namesOf<Verdict>()},         {"safe", namesOf<Safety>()},
         {"exactness", namesOf<Exactness>()},   {"method", namesOf<CountingMethod>()},
-        {"projection", namesOf<Projection>()},
+        {"projection", namesOf<Projection>()}, {"inside", namesOf<Containment>()},
     };
-    const std::set<std::string> units{"", "mm", "mm^2", "ms", "degrees", "mm/mm", "mm/rad"};
+    const std::set<std::string> units{"", "mm", "mm^2", "mm^3", "ms", "degrees", "mm/mm", "mm/rad"};
     for (const auto& [question, answer] : answers) {
         std::set<std::pair<std::string, std::string>> names;
         const std::size_t count = vxt_answer_columns(answer.get());
@@ -280,6 +277,8 @@ TEST(CFacts, AreTheTable) {
         EXPECT_EQ(fact.max, expected.max);
         EXPECT_EQ(fact.has_standard != 0, expected.standard.has_value());
         EXPECT_EQ(fact.standard, expected.standard.value_or(0));
+        EXPECT_EQ(fact.kind, static_cast<vxt_fact_kind>(expected.kind));
+        EXPECT_EQ(fact.choices, expected.choices);
     }
     EXPECT_EQ(vxt_fact_get(kFacts.size(), &fact), VXT_ERROR_NOT_READY);
     EXPECT_EQ(vxt_fact_get(0, nullptr), VXT_ERROR_INVALID_ARGUMENT);

@@ -141,13 +141,14 @@ class QuestionMemory : public Memory {
                         [&] { EXPECT_EQ(contentOf(*answer), expected); });
         }
     }
-    template <class Question>
-    void expectTightAnswer(const std::string& what, const Question& question,
+    void expectTightAnswer(const std::string& what, const char* question, const Settings& settings,
                            const std::vector<bool>& known = {true, false}) {
         for (const std::uint32_t threads : {1U, 3U}) {
             expectTightAnswer(
                 what, threads,
-                [&](vxt_host_engine* engine, vxt_answer* answer) { return askC(engine, &question, &c_.pairs, answer); },
+                [&](vxt_host_engine* engine, vxt_answer* answer) {
+                    return askC(engine, question, settings, &c_.pairs, answer);
+                },
                 known);
         }
     }
@@ -155,51 +156,31 @@ class QuestionMemory : public Memory {
 };
 
 TEST_F(QuestionMemory, OfCounts) {
-    vxt_count question = sized<vxt_count>();
-    question.outputs = VXT_OUTPUT_CONTACTS | VXT_OUTPUT_TRIANGLES | VXT_OUTPUT_BOUNDS | VXT_OUTPUT_LABELS;
-    for (const vxt_projection projection :
-         {VXT_PROJECTION_CERTIFIED, VXT_PROJECTION_VIEW, VXT_PROJECTION_DOMINANT_AXIS}) {
-        question.projection = projection;
-        expectTightAnswer(vxt_projection_name(projection), question);
+    for (const char* const projection : {"certified", "view", "dominant-axis"}) {
+        expectTightAnswer(
+            projection, "count",
+            {{"projection", projection}, {"contacts", 1}, {"triangles", 1}, {"bounds", 1}, {"labels", 1}});
     }
 }
 
 TEST_F(QuestionMemory, OfTouches) {
-    vxt_touch question = sized<vxt_touch>();
-    question.margin = 1;
-    question.witness = 1;
-    expectTightAnswer("touch", question);
-    question.margin = 0;
-    question.witness = 0;
-    question.uncertainty_distance = 0.2;
-    question.uncertainty_angle = 1;
-    expectTightAnswer("touch at uncertain poses", question, {true}); // a new engine allocates thousands of times
+    expectTightAnswer("touch", "touch", {{"margin", 1}, {"witness", 1}});
+    expectTightAnswer("touch at uncertain poses", "touch", {{"uncertainty_distance", 0.2}, {"uncertainty_angle", 1}},
+                      {true}); // a new engine allocates thousands of times
 }
 
 TEST_F(QuestionMemory, OfDistances) {
-    vxt_distance question = sized<vxt_distance>();
-    question.tolerance = 0.1;
-    expectTightAnswer("distance", question);
-    question.labels = kLabels;
-    question.label_count = 2;
-    expectTightAnswer("distance to labels", question);
+    expectTightAnswer("distance", "distance", {{"tolerance", 0.1}});
+    expectTightAnswer("distance to labels", "distance", {{"tolerance", 0.1}, {"labels", kLabels}});
 }
 
 TEST_F(QuestionMemory, OfAreas) {
-    vxt_area question = sized<vxt_area>();
-    question.tolerance = 0.05;
-    question.triangles = 1;
-    expectTightAnswer("area by triangle", question);
-    question.triangles = 0;
-    question.labels = kLabels;
-    question.label_count = 2;
-    expectTightAnswer("area in labels", question);
+    expectTightAnswer("area by triangle", "area", {{"tolerance", 0.05}, {"triangles", 1}});
+    expectTightAnswer("area in labels", "area", {{"tolerance", 0.05}, {"labels", kLabels}});
 }
 
 TEST_F(QuestionMemory, OfMotions) {
-    vxt_motion question = sized<vxt_motion>();
-    question.resolution = 0.5;
-    expectTightAnswer("motion", question);
+    expectTightAnswer("motion", "motion", {{"resolution", 0.5}});
 }
 
 TEST_F(QuestionMemory, OfPlans) {
@@ -225,11 +206,11 @@ TEST_F(QuestionMemory, AnEngineThatNeverHadItsMemoryGetsItInTheNextCall) {
     for (std::int64_t number = 0; failures > 0; ++number) {
         const Owned<vxt_host_engine> engine = newEngine();
         FailingMemory memory(number, false);
-        const vxt_result first = vxt_ask_distance(engine.get(), nullptr, &c_.pairs, answer.get());
+        const vxt_result first = askC(engine.get(), "distance", {}, &c_.pairs, answer.get());
         memory.end();
         failures = memory.failures();
         EXPECT_TRUE(first == VXT_OK || failures > 0) << first;
-        need(vxt_ask_distance(engine.get(), nullptr, &c_.pairs, answer.get()));
+        need(askC(engine.get(), "distance", {}, &c_.pairs, answer.get()));
         EXPECT_GT(readColumn<double>(*answer, "pairs", "upper").at(1), 0) << "allocation " << number;
     }
 }

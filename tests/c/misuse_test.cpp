@@ -78,8 +78,8 @@ TEST(CMisuse, NullIsRefused) {
         vxt_host_volume_write, vxt_host_transfer_function_create, vxt_host_mesh_create, vxt_host_mesh_facts,
         vxt_host_volume_read, vxt_multiply, vxt_transform_point, vxt_side_view, vxt_texture_from_world, vxt_check_grid,
         vxt_check_affine, vxt_sample_table, vxt_check_opacity, vxt_ball_voxels, vxt_labels_grid, vxt_host_volume_grid,
-        vxt_labels_on_grid, vxt_unpack, vxt_labels_along, vxt_pose_between, vxt_host_mesh_update, vxt_ask_touch,
-        vxt_ask_count, vxt_ask_distance, vxt_ask_area, vxt_ask_motion, vxt_ask_plan, vxt_tracker_track);
+        vxt_labels_on_grid, vxt_unpack, vxt_labels_along, vxt_pose_between, vxt_host_mesh_update, vxt_ask, vxt_ask_plan,
+        vxt_tracker_track, vxt_question_get);
     expectAllNullRefused(vxt_read_volume, vxt_write_volume, vxt_read_mesh, vxt_write_mesh, vxt_read_camera,
                          vxt_read_poses, vxt_read_transfer_function, vxt_parse_opacity, vxt_read_label_names,
                          vxt_read_points, vxt_read_volume_bytes, vxt_read_mesh_bytes, vxt_pose_reader_open,

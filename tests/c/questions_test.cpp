@@ -59,6 +59,24 @@ void expectSame(const vxt_answer& c, const AreaAnswer& cpp) {
     columns.expectTime();
 }
 
+void expectSame(const vxt_answer& c, const OverlapAnswer& cpp) {
+    Columns columns(c);
+    columns.expectBounds("pairs", cpp.pairs);
+    columns.expect("pairs", "inside", cpp.pairs, &PairOverlap::inside);
+    columns.expect("pairs", "solid_lower", cpp.pairs, [](const PairOverlap& row) { return row.solid.lower; });
+    columns.expect("pairs", "solid_upper", cpp.pairs, [](const PairOverlap& row) { return row.solid.upper; });
+    columns.expectBounds("bands", cpp.bands);
+    columns.expect("bands", "pair", cpp.bands, &BandOverlap::pair);
+    columns.expect("bands", "band", cpp.bands, &BandOverlap::band);
+    columns.expect("bands", "from", cpp.bands, &BandOverlap::from);
+    columns.expect("bands", "below", cpp.bands, &BandOverlap::below);
+    columns.expectBounds("labels", cpp.labels);
+    columns.expect("labels", "pair", cpp.labels, &LabelOverlap::pair);
+    columns.expect("labels", "label", cpp.labels, &LabelOverlap::label);
+    columns.expect("labels", "inside", cpp.labels, &LabelOverlap::inside);
+    columns.expectTime();
+}
+
 void expectSame(const vxt_answer& c, const MotionAnswer& cpp) {
     Columns columns(c);
     const auto& segments = cpp.segments;
@@ -82,6 +100,25 @@ void expectSame(const vxt_answer& c, const BatchAnswer& cpp) {
     EXPECT_EQ(wholeDifferenceOf(answerOf(c), cpp), "");
 }
 
+const char* nameOf(const Touch&) {
+    return "touch";
+}
+const char* nameOf(const Count&) {
+    return "count";
+}
+const char* nameOf(const Distance&) {
+    return "distance";
+}
+const char* nameOf(const Area&) {
+    return "area";
+}
+const char* nameOf(const Overlap&) {
+    return "overlap";
+}
+const char* nameOf(const Motion&) {
+    return "motion";
+}
+
 /// Poses of a random scene may be of different scales, which no motion joins.
 void makeRigid(RandomScene& scene, std::mt19937_64& random) {
     for (Mat4& pose : scene.poses) {
@@ -95,10 +132,11 @@ void makeRigid(RandomScene& scene, std::mt19937_64& random) {
 /// Engines of both interfaces.
 class CQuestions : public testing::Test {
   protected:
-    /// Asks both.
-    template <class Given, class Question>
-    auto compare(const BothInterfaces& both, const RandomScene& scene, const Given& given, const Question& question) {
-        const Owned<vxt_answer> answer = both.byC(*c_, given, scene);
+    /// Asks both. The settings are the members of the question that are not defaults.
+    template <class Question>
+    auto compare(const BothInterfaces& both, const RandomScene& scene, const Settings& settings,
+                 const Question& question) {
+        const Owned<vxt_answer> answer = both.byC(*c_, nameOf(question), settings, scene);
         const auto expected = both.byCpp(cpp_, question, scene);
         expectSame(*answer, expected);
         return expected;
@@ -106,59 +144,41 @@ class CQuestions : public testing::Test {
     void see(const char* what, bool isSeen) { seen_[what] += isSeen ? 1 : 0; }
 
     void compareTouch(const BothInterfaces& both, const RandomScene& scene) {
-        vxt_touch given = sized<vxt_touch>();
-        given.margin = 1.5;
-        given.witness = 1;
-        given.resolution = 1.0 / 8;
-        given.max_steps = 300;
         Touch question{.margin = 1.5, .witness = true, .resolution = 1.0 / 8, .maxSteps = 300};
+        const Settings given{{"margin", 1.5}, {"witness", 1}, {"resolution", 1.0 / 8}, {"max_steps", 300}};
         for (const PairTouch& pair : compare(both, scene, given, question).pairs) {
             see(toString(pair.touch), true);
             see("witness point", pair.witness.has_value());
         }
-        given.margin = 0;
-        given.witness = 0;
-        given.uncertainty_distance = 1.5;
-        given.uncertainty_angle = 3;
-        question.margin = 0;
-        question.witness = false;
-        question.uncertainty = PoseTolerance{1.5, 3};
-        compare(both, scene, given, question);
-        given.uncertainty_distance = 0;
+        question = {.uncertainty = PoseTolerance{1.5, 3}, .maxSteps = 300};
+        compare(both, scene, {{"uncertainty_distance", 1.5}, {"uncertainty_angle", 3}, {"max_steps", 300}}, question);
         question.uncertainty->distance = 0;
-        compare(both, scene, given, question);
+        compare(both, scene, {{"uncertainty_angle", 3}, {"max_steps", 300}}, question);
+        question.uncertainty = PoseTolerance{1.5, 0};
+        compare(both, scene, {{"uncertainty_distance", 1.5}, {"max_steps", 300}}, question);
     }
 
     void compareDistance(const BothInterfaces& both, const RandomScene& scene) {
-        vxt_distance given = sized<vxt_distance>();
-        given.tolerance = 0.1;
-        given.max = 20;
-        given.resolution = 1.0 / 8;
-        given.max_steps = 500;
         Distance question{.tolerance = 0.1, .maximum = 20, .resolution = 1.0 / 8, .maxSteps = 500};
+        const Settings given{{"tolerance", 0.1}, {"max", 20}, {"resolution", 1.0 / 8}, {"max_steps", 500}};
         for (const PairDistance& pair : compare(both, scene, given, question).pairs) {
             see("distance above 0", pair.bounds.lower > 0);
             see("closest points", pair.closest.has_value());
         }
         const std::vector<std::int32_t> labels{both.labels.values.back(), 0, 12345};
-        given.labels = labels.data();
-        given.label_count = labels.size();
-        question.labels = labels;
-        for (const LabelDistance& label : compare(both, scene, given, question).labels) {
+        question = {.tolerance = 0.1, .labels = labels, .maxSteps = 500};
+        const Settings toLabels{{"tolerance", 0.1}, {"labels", labels}, {"max_steps", 500}};
+        for (const LabelDistance& label : compare(both, scene, toLabels, question).labels) {
             see("distance to a label", std::isfinite(label.bounds.upper));
         }
-        given.any_opacity = 1;
         question.labelsAtAnyOpacity = true;
-        compare(both, scene, given, question);
+        compare(both, scene, {{"tolerance", 0.1}, {"labels", labels}, {"max_steps", 500}, {"any_opacity", 1}},
+                question);
     }
 
     void compareArea(const BothInterfaces& both, const RandomScene& scene) {
-        vxt_area given = sized<vxt_area>();
-        given.tolerance = 1e-3;
-        given.triangles = 1;
-        given.resolution = 1.0 / 8;
-        given.max_steps = 100;
-        Area question{.tolerance = 1e-3, .triangles = true, .resolution = 1.0 / 8, .maxSteps = 100};
+        const Area question{.tolerance = 1e-3, .triangles = true, .resolution = 1.0 / 8, .maxSteps = 100};
+        const Settings given{{"tolerance", 1e-3}, {"triangles", 1}, {"resolution", 1.0 / 8}, {"max_steps", 100}};
         const AreaAnswer answer = compare(both, scene, given, question);
         see("area of a triangle", !answer.triangles.empty());
         for (const PairArea& pair : answer.pairs) {
@@ -166,24 +186,18 @@ class CQuestions : public testing::Test {
             see("too many steps", pair.end == StopReason::Budget);
         }
         const std::vector<std::int32_t> labels{2, 0, 12345};
-        given.triangles = 0;
-        given.labels = labels.data();
-        given.label_count = labels.size();
-        question.triangles = false;
-        question.labels = labels;
-        for (const LabelArea& label : compare(both, scene, given, question).labels) {
+        const Settings inLabels{{"tolerance", 1e-3}, {"labels", labels}, {"resolution", 1.0 / 8}, {"max_steps", 100}};
+        const Area ofLabels{.tolerance = 1e-3, .labels = labels, .resolution = 1.0 / 8, .maxSteps = 100};
+        for (const LabelArea& label : compare(both, scene, inLabels, ofLabels).labels) {
             see("area in a label", label.bounds.lower > 0);
         }
     }
 
     void compareMotion(const BothInterfaces& both, const RandomScene& scene) {
-        vxt_motion given = sized<vxt_motion>();
-        given.interpolation = VXT_INTERPOLATION_SLERP;
-        given.resolution = 0.1;
-        given.touch_resolution = 1.0 / 8;
-        given.max_steps = 5000;
         const Motion question{
             .interpolation = Interpolation::Slerp, .resolution = 0.1, .touchResolution = 1.0 / 8, .maxSteps = 5000};
+        const Settings given{
+            {"interpolation", "slerp"}, {"resolution", 0.1}, {"touch_resolution", 1.0 / 8}, {"max_steps", 5000}};
         for (const SegmentMotion& segment : compare(both, scene, given, question).segments) {
             see("touch on the way", segment.touch.has_value());
             see("free all the way", segment.freeUntil == 1);
@@ -227,17 +241,19 @@ TEST_F(CQuestions, CountInEveryProjection) {
     constexpr Outputs kAll{.triangles = true, .contacts = true, .bounds = true, .labels = true, .maxDepth = 3};
     std::mt19937_64 random(testSeed());
     for (const Projection projection : projections()) {
+        const char* const name = toString(projection);
         Count question{.projection = projection,
                        .boundary = Boundary::Range,
                        .samplesPerVoxel = 2,
                        .resolution = 1.0 / 8,
                        .maxContacts = 500};
-        vxt_count given = sized<vxt_count>();
-        given.projection = static_cast<vxt_projection>(projection);
-        given.boundary = VXT_BOUNDARY_RANGE;
-        given.samples_per_voxel = 2;
-        given.resolution = 1.0 / 8;
-        given.max_contacts = 500;
+        const NamedValue common[] = {{"projection", name},
+                                     {"boundary", "range"},
+                                     {"samples_per_voxel", 2},
+                                     {"resolution", 1.0 / 8},
+                                     {"max_contacts", 500}};
+        const Settings outputs(
+            common, {{"triangles", 1}, {"contacts", 1}, {"bounds", 1}, {"labels", 1}, {"max_depth", kAll.maxDepth}});
         std::size_t contacts = 0;
         for (int round = 0; (round < 6 || contacts < 300) && round < 100 && !HasFailure(); ++round) {
             const std::uint64_t seed = random();
@@ -247,17 +263,13 @@ TEST_F(CQuestions, CountInEveryProjection) {
             scene.view.width = std::min(scene.view.width, 100U);
             scene.view.height = std::min(scene.view.height, 100U);
             const BothInterfaces both(scene, makeLabelImage(local, scene.volume.grid));
-            compare(both, scene, given, question);
-            given.stop_at_first = 1;
+            compare(both, scene, Settings(common), question);
             question.stopAtFirst = true;
-            compare(both, scene, given, question);
-            given.stop_at_first = 0;
+            compare(both, scene, Settings(common, {{"stop_at_first", 1}}), question);
             question.stopAtFirst = false;
-            given.outputs = cOutputs(kAll);
-            given.max_depth = kAll.maxDepth;
             question.outputs = kAll;
             const BatchAnswer expected = both.byCpp(cpp_, question, scene);
-            const BatchAnswer found = answerOf(*both.byC(*c_, given, scene));
+            const BatchAnswer found = answerOf(*both.byC(*c_, "count", outputs, scene));
             // A list that is cut is cut arbitrarily.
             if (expected.contactsFound <= 500) {
                 EXPECT_EQ(wholeDifferenceOf(found, expected), "");
@@ -266,7 +278,6 @@ TEST_F(CQuestions, CountInEveryProjection) {
                 EXPECT_EQ(found.contacts.size(), 500U);
             }
             contacts += found.contacts.size();
-            given.outputs = 0;
             question.outputs = {};
         }
         std::cout << toString(projection) << ": " << contacts << " contacts\n";
@@ -274,82 +285,81 @@ TEST_F(CQuestions, CountInEveryProjection) {
     }
 }
 
-/// A mesh that touches, one that does not, and a small one on the way, with a label that is not opaque anywhere.
-RandomScene plainScene() {
-    RandomScene scene;
-    scene.volume = makeBytes(millimetreGrid(16), [](auto x, auto...) { return x < 4 ? 255.0 : 0.0; });
-    scene.points = {{100, 0}, {200, 1}};
-    scene.domain = {0, 255};
-    scene.mesh = makeCube(0, 2);
-    scene.poses = {translation({5, 7, 7}), translation({2.3, 7, 7}), translation({9.2, 3, 4})};
-    scene.view = {framingCamera(scene.volume.grid, 32, 32), 32, 32};
-    return scene;
-}
-VolumeData plainLabels() {
-    return makeBytes(millimetreGrid(16), [](auto x, auto...) { return x >= 12 ? 4.0 : 0.0; });
-}
-
-TEST_F(CQuestions, ThatAreZeroOrNullAreTheDefaults) {
+TEST_F(CQuestions, WithoutSettingsHaveTheDefaultsOfTheFacts) {
     RandomScene scene = plainScene();
+    scene.mesh = closedCube(0, 2);
+    scene.threshold = kDefaultThreshold;
     const BothInterfaces both(scene, plainLabels());
-    const auto expectDefault = [&]<class Given, class Question>(Given given, Question question) {
-        compare(both, scene, given, question);
+    const auto expectDefault = [&]<class Question>(const Question& question) {
+        const auto expected = compare(both, scene, {}, question);
         BothInterfaces::CPairs c;
         both.fill(c, scene);
         c.pairs.opacity_threshold = 0;
         const Owned<vxt_answer> answer = newAnswer();
-        need(askC(c_.get(), static_cast<const Given*>(nullptr), &c.pairs, answer.get()));
-        expectSame(*answer, both.byCpp(cpp_, question, scene));
+        need(vxt_ask(c_.get(), nameOf(question), nullptr, 0, &c.pairs, answer.get()));
+        expectSame(*answer, expected);
+        for (const vxt_fact& fact : factsOf(nameOf(question))) {
+            SCOPED_TRACE(std::string(nameOf(question)) + " " + fact.name);
+            const std::string choice = firstChoice(fact);
+            if (fact.kind == VXT_FACT_CHOICE) {
+                compare(both, scene, {{fact.name, choice.c_str()}}, question);
+            } else if (fact.has_standard != 0) {
+                compare(both, scene, {{fact.name, fact.standard}}, question);
+            }
+        }
     };
-    scene.threshold = kDefaultThreshold;
-    expectDefault(sized<vxt_touch>(), Touch{});
-    expectDefault(sized<vxt_count>(), Count{});
-    expectDefault(sized<vxt_distance>(), Distance{});
-    expectDefault(sized<vxt_area>(), Area{});
-    expectDefault(sized<vxt_motion>(), Motion{});
+    expectDefault(Touch{});
+    expectDefault(Count{});
+    expectDefault(Distance{});
+    expectDefault(Area{});
+    expectDefault(Overlap{});
+    expectDefault(Motion{});
 }
 
 TEST_F(CQuestions, SolidsHaveAPointInside) {
     RandomScene scene = plainScene();
-    scene.mesh = makeCube(-20, 40);
-    for (const std::size_t triangle : {0, 1, 4, 5, 8, 9}) { // of the lower sides, so that all normals are outward
-        std::swap(scene.mesh.indices[3 * triangle + 1], scene.mesh.indices[3 * triangle + 2]);
-    }
+    scene.mesh = closedCube(-20, 40);
     scene.poses = {identity(), translation({100, 0, 0})};
     const BothInterfaces both(scene, plainLabels());
-    vxt_touch touch = sized<vxt_touch>();
-    touch.witness = 1;
-    touch.solid = 1;
-    const TouchAnswer touched = compare(both, scene, touch, Touch{.witness = true, .solid = true});
+    const TouchAnswer touched =
+        compare(both, scene, {{"witness", 1}, {"solid", 1}}, Touch{.witness = true, .solid = true});
     EXPECT_EQ(touched.pairs.at(0).touch, Verdict::Yes);
     EXPECT_EQ(touched.pairs.at(1).touch, Verdict::No);
     ASSERT_TRUE(touched.pairs[0].witness.has_value());
     EXPECT_EQ(touched.pairs[0].witness->triangle, kInsideMesh);
-    vxt_distance distance = sized<vxt_distance>();
-    distance.solid = 1;
-    const DistanceAnswer measured = compare(both, scene, distance, Distance{.solid = true});
+    const DistanceAnswer measured = compare(both, scene, {{"solid", 1}}, Distance{.solid = true});
     EXPECT_EQ(measured.pairs.at(0).bounds.upper, 0);
     EXPECT_GT(measured.pairs.at(1).bounds.lower, 70);
     ASSERT_TRUE(measured.pairs[0].closest.has_value());
     EXPECT_EQ(measured.pairs[0].closest->triangle, kInsideMesh);
 }
 
+TEST_F(CQuestions, MeasureOverlapsByBandAndByLabel) {
+    RandomScene scene = plainScene();
+    scene.mesh = closedCube(0, 3);
+    const BothInterfaces both(scene, plainLabels());
+    const std::vector<double> bands{50, 150};
+    const std::vector<std::int32_t> labels{0, 4, 12345};
+    const OverlapAnswer answer =
+        compare(both, scene, {{"tolerance", 0.1}, {"bands", bands}, {"labels", labels}, {"max_steps", 2000}},
+                Overlap{.tolerance = 0.1, .bandLimits = bands, .labels = labels, .maxSteps = 2000});
+    EXPECT_GT(answer.pairs.at(1).bounds.lower, 0);
+    EXPECT_EQ(answer.bands.size(), 9U);
+    EXPECT_EQ(answer.labels.size(), 9U);
+}
+
 TEST_F(CQuestions, MeasureALabelAtAnyOpacity) {
     RandomScene scene = plainScene();
     scene.poses.resize(1);
     const BothInterfaces both(scene, plainLabels());
-    const std::int32_t label = 4;
-    vxt_distance question = sized<vxt_distance>();
-    question.labels = &label;
-    question.label_count = 1;
-    const auto distance = [&] {
-        const auto upper = readColumn<double>(*both.byC(*c_, question, scene), "labels", "upper");
+    const std::vector<std::int32_t> label{4};
+    const auto distance = [&](const Settings& settings) {
+        const auto upper = readColumn<double>(*both.byC(*c_, "distance", settings, scene), "labels", "upper");
         EXPECT_EQ(upper.size(), 1U);
         return upper.at(0);
     };
-    EXPECT_EQ(distance(), std::numeric_limits<double>::infinity());
-    question.any_opacity = 1;
-    EXPECT_NEAR(distance(), 4.5, 0.01); // voxel 12 begins at 11.5, the cube ends at 7
+    EXPECT_EQ(distance({{"labels", label}}), std::numeric_limits<double>::infinity());
+    EXPECT_NEAR(distance({{"labels", label}, {"any_opacity", 1}}), 4.5, 0.01); // from 7, the end of the cube, to 11.5
 }
 
 TEST_F(CQuestions, ATrackerFollowsAsTheCppInterfacesDoes) {
@@ -421,111 +431,6 @@ TEST(CPoseBetween, IsTheCppInterfaces) {
         EXPECT_EQ(std::string(vxt_last_error(nullptr)),
                   "there is no interpolation number " + std::to_string(static_cast<std::uint32_t>(none)));
     }
-}
-
-/// What is refused, without a change of the answer.
-class CRefusals : public testing::Test {
-  protected:
-    CRefusals() { both_.fill(c_, scene_); }
-    template <class Question> std::string refused(const Question& question) { return refused(question, c_.pairs); }
-    template <class Question> std::string refused(const Question& question, const vxt_pairs& pairs) {
-        EXPECT_EQ(askC(engine_.get(), &question, &pairs, answer_.get()), VXT_ERROR_INVALID_ARGUMENT);
-        EXPECT_EQ(vxt_answer_columns(answer_.get()), 0U);
-        EXPECT_EQ(std::string(vxt_last_error(nullptr)).find('\n'), std::string::npos);
-        return vxt_last_error(nullptr);
-    }
-    template <class Question> std::string refusedWith(auto member, auto value) {
-        Question question = sized<Question>();
-        question.*member = value;
-        return refused(question);
-    }
-
-    RandomScene scene_ = plainScene();
-    BothInterfaces both_{scene_, plainLabels()};
-    Owned<vxt_host_engine> engine_ = newEngine();
-    Owned<vxt_answer> answer_ = newAnswer();
-    BothInterfaces::CPairs c_;
-};
-
-TEST_F(CRefusals, OfNull) {
-    const auto expectRefused = [&]<class Question>(const Question& question) {
-        const auto text = [&](vxt_host_engine* engine, const vxt_pairs* pairs, vxt_answer* answer) {
-            EXPECT_EQ(askC(engine, &question, pairs, answer), VXT_ERROR_INVALID_ARGUMENT);
-            return std::string(vxt_last_error(nullptr));
-        };
-        EXPECT_EQ(text(nullptr, &c_.pairs, answer_.get()), "engine is null");
-        EXPECT_EQ(text(engine_.get(), nullptr, answer_.get()), "pairs is null");
-        EXPECT_EQ(text(engine_.get(), &c_.pairs, nullptr), "answer is null");
-        vxt_pairs pairs = c_.pairs;
-        pairs.items = nullptr;
-        EXPECT_EQ(text(engine_.get(), &pairs, answer_.get()), "items is null");
-        // Nothing to do is done.
-        pairs.item_count = 0;
-        const Owned<vxt_answer> empty = newAnswer();
-        need(askC(engine_.get(), &question, &pairs, empty.get()));
-        vxt_column column = sized<vxt_column>();
-        need(vxt_answer_column(empty.get(), 0, &column));
-        EXPECT_EQ(column.rows, 0U);
-        EXPECT_EQ(column.data, nullptr);
-        Question unsized = question;
-        unsized.struct_size = 3;
-        EXPECT_THAT(refused(unsized), HasSubstr("question: struct_size is 3"));
-        pairs = c_.pairs;
-        pairs.struct_size = 0;
-        EXPECT_THAT(refused(question, pairs), HasSubstr("pairs: struct_size is 0"));
-    };
-    expectRefused(sized<vxt_touch>());
-    expectRefused(sized<vxt_count>());
-    expectRefused(sized<vxt_distance>());
-    expectRefused(sized<vxt_area>());
-    expectRefused(sized<vxt_motion>());
-    const vxt_host_item item = c_.item;
-    const auto refusedWithout = [&](auto member) {
-        c_.item.*member = nullptr;
-        const std::string text = refused(sized<vxt_touch>());
-        c_.item = item;
-        return text;
-    };
-    EXPECT_THAT(refusedWithout(&vxt_host_item::mesh), HasSubstr("item 0: mesh"));
-    EXPECT_THAT(refusedWithout(&vxt_host_item::volume), HasSubstr("item 0: mesh, volume"));
-    EXPECT_THAT(refusedWithout(&vxt_host_item::transfer_function), HasSubstr("is null"));
-    EXPECT_EQ(refusedWithout(&vxt_host_item::world_from_object), "item 0: world_from_object is null");
-}
-
-TEST_F(CRefusals, OfNumbersOutsideTheirRanges) {
-    const double nan = std::nan("");
-    EXPECT_THAT(refusedWith<vxt_touch>(&vxt_touch::margin, -1), HasSubstr("margin"));
-    EXPECT_THAT(refusedWith<vxt_touch>(&vxt_touch::uncertainty_distance, -1), HasSubstr("distance"));
-    EXPECT_THAT(refusedWith<vxt_touch>(&vxt_touch::uncertainty_angle, 181), HasSubstr("angle"));
-    vxt_touch both = sized<vxt_touch>();
-    both.margin = both.uncertainty_distance = 1;
-    EXPECT_THAT(refused(both), HasSubstr("margin and an uncertain pose"));
-    EXPECT_THAT(refusedWith<vxt_touch>(&vxt_touch::resolution, 2), HasSubstr("resolution"));
-    EXPECT_THAT(refusedWith<vxt_count>(&vxt_count::projection, static_cast<vxt_projection>(4)),
-                HasSubstr("projection"));
-    EXPECT_THAT(refusedWith<vxt_count>(&vxt_count::boundary, static_cast<vxt_boundary>(77)), HasSubstr("boundary"));
-    EXPECT_THAT(refusedWith<vxt_count>(&vxt_count::samples_per_voxel, 17), HasSubstr("samples"));
-    EXPECT_THAT(refusedWith<vxt_distance>(&vxt_distance::tolerance, -1), HasSubstr("tolerance"));
-    EXPECT_THAT(refusedWith<vxt_distance>(&vxt_distance::max, nan), HasSubstr("max"));
-    EXPECT_EQ(refusedWith<vxt_distance>(&vxt_distance::label_count, 1), "labels is null");
-    EXPECT_THAT(refusedWith<vxt_area>(&vxt_area::tolerance, nan), HasSubstr("tolerance"));
-    EXPECT_EQ(refusedWith<vxt_area>(&vxt_area::label_count, 1), "labels is null");
-    EXPECT_THAT(refusedWith<vxt_motion>(&vxt_motion::resolution, 1e-9), HasSubstr("resolution"));
-    EXPECT_THAT(refusedWith<vxt_motion>(&vxt_motion::interpolation, static_cast<vxt_interpolation>(9)),
-                HasSubstr("interpolation"));
-    vxt_pairs pairs = c_.pairs;
-    pairs.opacity_threshold = 2;
-    EXPECT_THAT(refused(sized<vxt_touch>(), pairs), HasSubstr("threshold"));
-    pairs = c_.pairs;
-    pairs.view = nullptr; // the projection VIEW has a camera
-    refused(sized<vxt_count>(), pairs);
-    vxt_count outputs = sized<vxt_count>();
-    outputs.outputs = 16;
-    EXPECT_EQ(vxt_ask_count(engine_.get(), &outputs, &c_.pairs, answer_.get()), VXT_ERROR_UNSUPPORTED);
-    EXPECT_THAT(vxt_last_error(nullptr), HasSubstr("outputs"));
-    vxt_host_engine* none = nullptr;
-    EXPECT_EQ(vxt_host_engine_create(cpu::kMaxThreads + 1, &none), VXT_ERROR_LIMIT_EXCEEDED);
-    EXPECT_EQ(none, nullptr);
 }
 
 } // namespace

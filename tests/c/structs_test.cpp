@@ -83,25 +83,34 @@ TEST_F(CStructs, OnlyWhatTheCallerKnowsIsWritten) {
     EXPECT_EQ(vxt_fact_get(0, &fact), VXT_ERROR_INVALID_ARGUMENT);
 }
 
-TEST_F(CStructs, QuestionsOfALaterHeaderAreAnsweredOrRefused) {
+TEST_F(CStructs, PairsOfALaterHeaderAreAnsweredOrRefused) {
     const auto engine = made(vxt_host_engine_destroy, vxt_host_engine_create, 1);
     const Owned<vxt_answer> answer = newAnswer();
-    Newer<vxt_touch> question{sized<vxt_touch>()};
-    question.known.struct_size = sizeof question;
     Newer<vxt_pairs> pairs{sized<vxt_pairs>()};
     pairs.known.struct_size = sizeof pairs;
-    const auto ask = [&] { return vxt_ask_touch(engine.get(), &question.known, &pairs.known, answer.get()); };
+    const auto ask = [&] { return vxt_ask(engine.get(), "touch", nullptr, 0, &pairs.known, answer.get()); };
     EXPECT_EQ(ask(), VXT_OK);
     pairs.added = 1;
     EXPECT_EQ(ask(), VXT_ERROR_UNSUPPORTED);
     EXPECT_THAT(vxt_last_error(nullptr), HasSubstr("pairs has members that are set"));
-    question.added = 1;
-    EXPECT_EQ(ask(), VXT_ERROR_UNSUPPORTED);
-    EXPECT_THAT(vxt_last_error(nullptr), HasSubstr("question has members that are set"));
-    // An earlier header's, which ends before `witness`.
-    question.known.struct_size = offsetof(vxt_touch, witness);
-    pairs.added = 0;
+    // An earlier header's, which ends before `opacity_threshold`.
+    pairs.known.opacity_threshold = 2;
+    pairs.known.struct_size = offsetof(vxt_pairs, opacity_threshold);
     EXPECT_EQ(ask(), VXT_OK);
+}
+
+TEST_F(CStructs, QuestionsAreDescribedToEveryHeader) {
+    Newer<vxt_question> newer{sized<vxt_question>(), 9};
+    newer.known.struct_size = sizeof newer;
+    need(vxt_question_get(0, &newer.known));
+    EXPECT_EQ(newer.known.struct_size, sizeof newer);
+    EXPECT_EQ(newer.added, 0U);
+    vxt_question older = sized<vxt_question>();
+    older.struct_size = offsetof(vxt_question, text);
+    older.text = "mine";
+    need(vxt_question_get(0, &older));
+    EXPECT_STREQ(older.name, "touch");
+    EXPECT_STREQ(older.text, "mine");
 }
 
 } // namespace

@@ -374,7 +374,7 @@ TEST_F(DetectOutputsTest, AListThatIsCutSaysSo) {
         EXPECT_EQ(ran.status, 0);
         const std::uint64_t found = std::stoull(whole[0].at(kColumns)) + std::stoull(whole[1].at(kColumns));
         EXPECT_THAT(ran.err, AllOf(StartsWith("voxtact: note: "),
-                                   HasSubstr("7 of " + std::to_string(found) + " contacts were kept")));
+                                   HasSubstr("7 of " + std::to_string(found) + " contacts are kept")));
         EXPECT_THAT(linesOf(readText(path("cut.csv"))), SizeIs(8));
         for (std::size_t row = 0; row < whole.size(); ++row) {
             EXPECT_EQ(rowsOf(ran.out)[row].at(kColumns), whole[row].at(kColumns)) << "the column has them all";

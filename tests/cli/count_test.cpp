@@ -188,7 +188,7 @@ TEST_F(DetectTest, WhatIsWithinADistanceComesNear) {
 
 TEST_F(DetectTest, LabelsAreOfAFile) {
     EXPECT_THAT(refused(2, detect({"--labels", "builtin:head:30", "--label-counts"})),
-                HasSubstr("--labels takes a file, and 'builtin:head:30' is none; voxtact make volume writes"));
+                HasSubstr("--labels needs a file, not 'builtin:head:30'; voxtact make volume writes"));
 }
 
 TEST_F(DetectTest, ThresholdAndTransferFunctionDecide) {
@@ -333,7 +333,7 @@ TEST_F(DetectTest, StatsAreALineBehindTheRows) {
 TEST_F(DetectTest, StatsAreOfADevicesCertified) {
     EXPECT_THAT(refused(2, detect({"--stats", "--method", "cpu"})), HasSubstr("--stats: the host engine"));
     EXPECT_THAT(refused(2, detect({"--stats", "--projection", "view"})),
-                HasSubstr("--stats is about the passes of --projection certified, not of view"));
+                HasSubstr("--stats: it counts passes of --projection certified, not of view"));
     EXPECT_THAT(refused(2, detect({"--stats", "--method", "atomic"})), HasSubstr("not of view"));
 }
 

@@ -217,7 +217,7 @@ TEST_F(InfoTest, PathsByOptions) {
 }
 
 TEST_F(InfoTest, WhatCannotBeSaid) {
-    EXPECT_THAT(refused(2, {"info"}), HasSubstr("PATH: a volume or mesh is needed"));
+    EXPECT_THAT(refused(2, {"info"}), HasSubstr("PATH: name a volume or mesh"));
     EXPECT_THAT(refused(1, {"info", path("no.nii")}), HasSubstr("no.nii"));
     EXPECT_THAT(refused(1, {"info", path("no.stl")}), HasSubstr("no.stl"));
     writeText(path("m.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");

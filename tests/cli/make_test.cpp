@@ -138,7 +138,7 @@ TEST_F(MakeTest, PosesAreRigidAndNearTheVolume) {
 TEST_F(MakeTest, PosesOfOnePairOnly) {
     EXPECT_THAT(refused(2, {"make", "poses", "--volume", "builtin:head:18", "--volume", "builtin:ct:16", "--mesh",
                             "builtin:scalpel:500"}),
-                HasSubstr("one --volume"));
+                HasSubstr("--volume, --mesh: give each once"));
     for (const char* seed : {"-1", "1.5", "0x10", "18446744073709551616"}) {
         EXPECT_THAT(refused(2, {"make", "poses", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:500",
                                 "--seed", seed}),

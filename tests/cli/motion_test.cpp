@@ -81,11 +81,11 @@ TEST_F(MotionTest, HalfTurnsAreNoted) {
     };
     EXPECT_EQ(notes(start + turned(179.999) + start), "");
     EXPECT_EQ(notes(start + start + turned(180.00005) + start),
-              "voxtact: note: segments that turn by 180 degrees to within 0.0001: 2, the first of them 1; rounding "
+              "voxtact: note: segments within 0.0001 degrees of half a turn: 2, first: 1; rounding "
               "decides the sense of rotation; add a pose in between\n");
     // Segments, however many meshes and volumes there are rows for.
     EXPECT_THAT(notes(start + turned(180), {"--mesh", "builtin:scalpel:500", "--volume", "builtin:sphere:16"}),
-                HasSubstr("to within 0.0001: 1, the first of them 0;"));
+                HasSubstr("of half a turn: 1, first: 0;"));
 }
 
 TEST_F(MotionTest, TimesAreAsShortAsThoseOfDetect) {
@@ -130,7 +130,7 @@ TEST_F(MotionTest, RefusesWhatItCannotUse) {
         all[6] = poses;
         return refused(status, all);
     };
-    EXPECT_THAT(refusedPoses(2, path("one.txt")), HasSubstr("a motion needs two or more"));
+    EXPECT_THAT(refusedPoses(2, path("one.txt")), HasSubstr("a motion needs at least two"));
     EXPECT_THAT(refusedPoses(2, path("scaled.txt")), HasSubstr("poses 0 and 1: the motion from one to the other is not "
                                                                "rigid"));
     EXPECT_THAT(refusedPoses(1, path("none.txt")), HasSubstr("none.txt"));
@@ -183,7 +183,7 @@ TEST_F(MotionTest, APoseMayBeOff) {
         EXPECT_THAT(line({"--uncertainty", wrong}), HasSubstr("is not MM,DEG")) << wrong;
     }
     EXPECT_THAT(line({"--uncertainty", "1,2", "--margin", "1"}), HasSubstr("--margin"));
-    EXPECT_THAT(line({"--uncertainty", "1,2", "--on", "device"}), HasSubstr("--uncertainty is answered by the host"));
+    EXPECT_THAT(line({"--uncertainty", "1,2", "--on", "device"}), HasSubstr("--uncertainty needs the host engine"));
 }
 
 } // namespace

@@ -130,7 +130,7 @@ TEST_F(OutputPathsTest, WhatCannotBeLookedAt) {
     writeText(path("m.gltf"), R"({"buffers": [{"uri": "loop.csv", "byteLength": 4}]})");
     writeText(path("old.csv"), "as it was");
     EXPECT_THAT(refused(1, {"count", "--volume", path("v.nii"), "--mesh", path("m.gltf"), "--output", path("old.csv")}),
-                AllOf(HasSubstr("cannot look at"), HasSubstr("loop.csv"), HasSubstr("symbolic links")));
+                AllOf(HasSubstr("cannot examine"), HasSubstr("loop.csv"), HasSubstr("symbolic links")));
     EXPECT_EQ(readText(path("old.csv")), "as it was");
 }
 

@@ -162,7 +162,7 @@ TEST_F(PlacementTest, FormatsOfPoses) {
     EXPECT_THAT(refused(1, asked), HasSubstr("7 numbers, a pose has 16"));
     Arguments other = asked;
     other.insert(other.end(), {"--poses-format", "quaternion"});
-    EXPECT_THAT(refused(2, other), HasSubstr("--poses-format: 'quaternion' is not known; there are: matrix, t-xyzw"));
+    EXPECT_THAT(refused(2, other), HasSubstr("--poses-format: 'quaternion' is unknown; choose from: matrix, t-xyzw"));
     other.back() = "t-xyzw";
     EXPECT_THAT(refused(1, other), HasSubstr("line 1: the quaternion has the norm"));
 }

@@ -141,7 +141,7 @@ TEST_F(ShardTest, OnlyWhatCanBePutTogether) {
     }
     for (const char* format : {"json", "text"}) {
         EXPECT_THAT(refused(2, detect({"--shard", "1/2", "--format", format})),
-                    AllOf(HasSubstr("--format"), HasSubstr("whose parts are CSV")));
+                    AllOf(HasSubstr("--format"), HasSubstr("--shard writes CSV")));
     }
     EXPECT_THAT(refused(2, detect({"--shard", "1/2", "--timing"})), HasSubstr("--timing: not with --shard"));
     EXPECT_THAT(refused(2, detect({"--shard", "1/2", "--summary"})), HasSubstr("--summary: not with --shard"));

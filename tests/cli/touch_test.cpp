@@ -98,7 +98,7 @@ TEST_F(TouchDeviceTest, TheDeviceSaysTheSame) {
     expectVerdictsOfCount(touches);
     EXPECT_EQ(touches[0].at("x"), "");
     EXPECT_THAT(refused(2, with(scene("touch"), {"--on", "device", "--margin", "1"})),
-                HasSubstr("--margin is answered by the host engine"));
+                HasSubstr("--margin needs the host engine"));
     EXPECT_THAT(refused(2, with(scene("touch"), {"--on", "host", "--device", "0"})), HasSubstr("--on host: --device"));
 }
 
@@ -164,7 +164,7 @@ TEST_F(TouchTest, WhatIsEnclosedIsNoted) {
               "v 150 -150 150\nv 150 150 150\nv -150 150 150\nf 1 3 2\nf 1 4 3\nf 5 6 7\nf 5 7 8\n"
               "f 1 2 6\nf 1 6 5\nf 2 3 7\nf 2 7 6\nf 3 4 8\nf 3 8 7\nf 4 1 5\nf 4 5 8\n");
     const Arguments pair{"count", "--volume", "builtin:head:30", "--mesh", path("around.obj"), "--format", "csv"};
-    const std::string note = "around.obj encloses an opaque region of builtin:head:30";
+    const std::string note = "around.obj encloses but does not touch an opaque region of builtin:head:30";
     const auto found = rowsOf(output(pair, {.note = note}));
     EXPECT_EQ(found.at(0).at("touch"), "0");
     EXPECT_EQ(found.at(0).at("count_exact"), "1");
@@ -197,8 +197,8 @@ TEST_F(TouchTest, MeshesThatDoNotFitAreNamed) {
     EXPECT_THAT(microns.err, AllOf(HasSubstr("note: "), HasSubstr("--mesh-scale 0.001")));
     const Arguments builtin{"count", "--volume", "builtin:head:18", "--mesh", "builtin:scalpel:500", "--method", "cpu"};
     EXPECT_EQ(run(builtin).err, "");
-    EXPECT_THAT(run(with(builtin, {"--mesh-scale", "0.5"})).err, HasSubstr("--mesh-scale is about mesh files"));
-    EXPECT_THAT(run(with(builtin, {"--mesh-space", "ras"})).err, HasSubstr("--mesh-space is about mesh files"));
+    EXPECT_THAT(run(with(builtin, {"--mesh-scale", "0.5"})).err, HasSubstr("--mesh-scale has no effect"));
+    EXPECT_THAT(run(with(builtin, {"--mesh-space", "ras"})).err, HasSubstr("--mesh-space has no effect"));
     const std::string far = "1 0 0 900 0 1 0 0 0 0 1 0 0 0 0 1\n";
     writeText(path("far.txt"), far + far);
     const Ran away = run(with(plain, {"--poses", path("far.txt")}));

@@ -2,7 +2,7 @@
 // A lost device is remembered: every later call that reaches it says so.
 #include "bench/engines/localize.h"
 #include "device/scene/scene_impl.h"
-#include "pretend_driver.h"
+#include "driver/pretend_driver.h"
 #include "scenarios.h"
 #include "sweep.h"
 #include "voxtact/render.h"

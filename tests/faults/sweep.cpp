@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "sweep.h"
-#include "pretend_driver.h"
+#include "driver/pretend_driver.h"
 #include "vulkan/own/vulkan_device.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Every read of a file fails once, and it and all after it: the reader says so, or has the whole file nevertheless.
-#include "dicom_writer.h"
+#include "dicom/dicom_writer.h"
 #include "failing_reads.h"
 #include "io_test_support.h"
 

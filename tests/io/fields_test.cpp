@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The tables of docs/files.md: for each field that they name, a file that has it and one that has it otherwise.
-#include "dicom_writer.h"
+#include "dicom/dicom_writer.h"
 
 #include <fstream>
 #include <functional>

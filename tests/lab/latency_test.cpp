@@ -67,9 +67,8 @@ TEST(TickJudgeTest, TheRasteriserAgreesWithItselfAndComputeWithTheHost) {
     EXPECT_EQ(judgePose(facts("atomic", "count", false), answer(100, CountingMethod::Atomic), must),
               "atomic view count says 100, it must be 101");
     EXPECT_EQ(judgePose(facts("query-any", "count", false), answer(1, CountingMethod::QueryAny), must), "");
-    EXPECT_EQ(
-        judgePose(facts("query-any", "count", false), answer(0, CountingMethod::QueryAny), must),
-        "query-any view count says no hit where cpu counts 100: more than what roundings of a rasteriser explain");
+    EXPECT_EQ(judgePose(facts("query-any", "count", false), answer(0, CountingMethod::QueryAny), must),
+              "query-any view count says no hit where cpu counts 100: more than the rounding of a rasteriser explains");
     EXPECT_EQ(judgePose(facts("compute", "count", false), answer(100, CountingMethod::Compute), must), "");
     EXPECT_EQ(judgePose(facts("compute", "count", false), answer(101, CountingMethod::Compute), must),
               "compute view count says 101, it must be 100");
@@ -81,8 +80,8 @@ TEST(TickJudgeTest, ARasteriserThatIsWrongAltogetherIsNoRounding) {
         PoseTruth must = truth(9, host);
         return judgePose(query, answer(count, CountingMethod::Query), must);
     };
-    EXPECT_EQ(says(0, 1000), "query view count says 0 where cpu counts 1000: more than what roundings of a rasteriser "
-                             "explain");
+    EXPECT_EQ(says(0, 1000), "query view count says 0 where cpu counts 1000: more than the rounding of a rasteriser "
+                             "explains");
     EXPECT_EQ(says(0, lab::kRoundedFragments), "") << "a sliver";
     EXPECT_EQ(says(lab::kRoundedFragments, 0), "") << "a sliver";
     EXPECT_NE(says(lab::kRoundedFragments + 1, 0), "");
@@ -176,12 +175,12 @@ TEST(LatencyOutputTest, SentencesSayOfHowManyTicksTheyAre) {
     writeBench(out, io::Format::Json, {.mode = BenchMode::Latency, .number = 500}, result);
     EXPECT_THAT(out.str(), HasSubstr("cpu on 1 thread: p50 5.00 us, p99 5.00 us (500 ticks, 258 of them touch); "
                                      "compute, polled, recorded once: p50 5.00 us (10 ticks, 0 of them touch)"));
-    EXPECT_THAT(out.str(), HasSubstr("no tick of these touches"));
+    EXPECT_THAT(out.str(), HasSubstr("these rows have only poses without contact"));
     EXPECT_THAT(out.str(), HasSubstr("all no: compute, polled, recorded once (certified count)\""));
     result.rows[1].touching = 3;
     std::ostringstream other;
     writeBench(other, io::Format::Json, {.mode = BenchMode::Latency, .number = 500}, result);
-    EXPECT_THAT(other.str(), Not(HasSubstr("no tick of these touches")));
+    EXPECT_THAT(other.str(), Not(HasSubstr("these rows have only poses without contact")));
 }
 
 } // namespace

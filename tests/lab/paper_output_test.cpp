@@ -86,11 +86,9 @@ TEST(PaperOutput, SaysWhatDetectionAdds) {
     EXPECT_THAT(
         lab::paperSummary(measured()),
         ElementsAre(
-            "query and atomic count the same, on every pose of every scene; every frame that was timed gave these "
-            "counts",
-            "query and cpu are apart by no more than (half of cpu's count + 64 fragments), on every pose; no oracle "
-            "was "
-            "asked",
+            "query and atomic count the same, on every pose of every scene; every timed frame gave these counts",
+            "query and cpu differ by at most (half of cpu's count + 64 fragments), on every pose; not checked by an "
+            "oracle",
             "detection adds to a frame 13.0 % (query in v1s1) to 33.0 % (atomic in v1s1), by GPU timestamps, medians; "
             "published: 4.3 to 15.9 %, on other hardware",
             "detection adds to a frame 3.00 % (cpu in v1s2) to 33.0 % (atomic in v1s1), by wall clock, medians; "
@@ -165,7 +163,7 @@ TEST(PaperOutput, WithoutTimestampsThereIsNoTableOfTheGpu) {
 
 TEST(PaperOutput, TextAndCsvHaveTheRestToo) {
     PaperResult result = measured();
-    const std::string title = "Making the pre-integrated table";
+    const std::string title = "Computing the pre-integrated table";
     EXPECT_THAT(written(result, io::Format::Text), Not(HasSubstr(title)));
     addTheRest(result);
     EXPECT_THAT(written(result, io::Format::Text),

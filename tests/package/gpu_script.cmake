@@ -11,7 +11,7 @@ case "$*" in
 --version) echo 'voxtact 1.2.3 "of a test"' ;;
 devices*) echo '{"rows": [{"name": "GPU", "type": "discrete", "default": 1}]}' >"$out" ;;
 *--certified*) sleep 100 ;;
-*--paper*) echo 'methods that must agree do not: "query" \\ atomic' >&2; exit 3 ;;
+*--paper*) echo 'methods disagree: "query" \\ atomic' >&2; exit 3 ;;
 *) echo '{"rows": []}' >"$out" ;;
 esac
 ]=])
@@ -57,7 +57,7 @@ foreach(number RANGE 6)
   list(GET wanted ${number} status)
   expect("${status}" steps ${number} status)
 endforeach()
-expect("methods that must agree do not: \"query\" \\ atomic" steps 5 last_line)
+expect("methods disagree: \"query\" \\ atomic" steps 5 last_line)
 expect(batches.json steps 6 file)
 file(READ "${WORK}/out/agreement.json" summary)
 string(JSON suites LENGTH "${summary}" suites)

@@ -93,23 +93,26 @@ def test_an_array_keeps_its_answer(head, knife):
     assert (rows == before).all() and others
 
 
-#: Of a fact, the argument of the package that it is the default of.
+#: Arguments of the package by the fact that is their default.
 ARGUMENTS = {("scene", "opacity_threshold"): (vx.Scene.__init__, "threshold"), ("scene", "deflection"): (vx.read_mesh, "deflection"),
-             ("count", "resolution"): (vx.Scene.count, "resolution"),
-             ("count", "max_depth"): (vx.Scene.count, "max_depth"), ("distance", "tolerance"): (vx.Scene.distance, "tolerance"),
-             ("area", "tolerance"): (vx.Scene.area, "tolerance"), ("overlap", "tolerance"): (vx.Scene.overlap, "tolerance"), ("motion", "resolution"): (vx.Scene.motion, "resolution"),
              ("plan", "tolerance"): (vx.Scene.plan, "tolerance"), ("plan", "margin"): (vx.Scene.plan, "margin")}
+#: The package has its own default, or does not offer the setting.
+OTHERS = {("count", "projection"), ("overlap", "max_steps"), ("motion", "touch_resolution"), ("distance", "resolution"),
+          ("area", "resolution")}
 
 
 def test_defaults_are_the_facts():
-    with_default = {key for key, fact in FACTS.items() if fact.standard is not None}
-    assert with_default == set(ARGUMENTS)
-    for key, (function, argument) in ARGUMENTS.items():
-        assert inspect.signature(function).parameters[argument].default == FACTS[key].standard, argument
-        assert FACTS[key].range and FACTS[key].text, key
+    names = {one.name for one in vx.questions()}
+    assert {question for question, _ in FACTS} == names | {"scene", "plan"}
+    for (question, name), fact in FACTS.items():
+        assert fact.range and fact.text and fact.name == name, name
+        if fact.default is not None and (question, name) not in OTHERS:
+            function, argument = ARGUMENTS.get((question, name)) or (getattr(vx.Scene, question), name)
+            assert inspect.signature(function).parameters[argument].default == fact.default, (question, name)
+    assert OTHERS <= set(FACTS) and set(ARGUMENTS) <= set(FACTS)
 
 
-def test_a_zero_is_refused_where_it_stands_for_a_default_in_c(head, knife):
+def test_a_zero_is_no_default(head, knife):
     scene = vx.Scene(head, opacity=[(40, 0), (80, 1)])
     for ask in (lambda: scene.count(knife, np.eye(4), resolution=0), lambda: scene.distance(knife, np.eye(4), tolerance=0),
                 lambda: scene.distance(knife, np.eye(4), max=0), lambda: scene.area(knife, np.eye(4), tolerance=0),

@@ -55,7 +55,7 @@ def test_few_and_none(client, knife):
 
     assert len(ask("count", make, knife, np.eye(4), client)) == 1
     assert len(ask("count", make, knife, np.zeros((0, 4, 4)), client, stop_at_first=True)) == 0
-    with pytest.raises(vx.InvalidArgumentError, match="none of touch"):
+    with pytest.raises(vx.InvalidArgumentError, match="question 'picture' is none of touch"):
         ask("picture", make, knife, np.eye(4), client)
     with pytest.raises(vx.NotReadyError, match="contacts=True"):
         ask("count", make, knife, np.eye(4), client).contacts

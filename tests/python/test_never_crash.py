@@ -87,9 +87,9 @@ def test_what_is_made_of_nothing():
     for hollow in (vx.Volume, vx.Mesh, vx.Scene, vx.Labels, vx.Touch, vx.Count, vx.Distance, vx.Overlap, vx.Motion, vx.Device):
         with pytest.raises((AttributeError, TypeError)):
             repr(hollow.__new__(hollow))
-    from voxtact import _core
+    from voxtact import _engine, _handles, _tables
 
-    for hollow in (_core.Scene, _core.Volume, _core.Mesh, _core.Tables, _core.Device):
+    for hollow in (_engine.Scene, _handles.Volume, _handles.Mesh, _tables.Tables, _handles.Device):
         with pytest.raises(TypeError):
             hollow().revision
 

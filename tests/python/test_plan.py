@@ -135,7 +135,7 @@ def test_labels_by_name(files):
 
 
 @pytest.mark.parametrize("wish,said", [
-    ({}, "what is not to be touched"),
+    ({}, "what to avoid"),
     ({"avoid": [3], "entry_label": 3, "entry_radius": 5}, "leave out one"),
     ({"avoid": [3], "tip": (0, 0, 0)}, "are of a mesh"),
     ({"avoid": [3], "mesh": True, "tip": (0, 0, 0)}, "comes with tip= and axis="),

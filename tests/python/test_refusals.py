@@ -156,7 +156,7 @@ def test_numbers_that_are_none(scene, what, wrong):
 WHOLE = {
     "samples_per_voxel": ("1 to 16", lambda scene, wrong: scene.count(cube(), EYE, projection="dominant-axis", samples_per_voxel=wrong)),
     "max_contacts": ("0 to 4294967295", lambda scene, wrong: scene.count(cube(), EYE, max_contacts=wrong)),
-    "max_steps": ("1 to 4294967295", lambda scene, wrong: scene.distance(cube(), EYE, max_steps=wrong)),
+    "max_steps": ("1 to 4294967295", lambda scene, wrong: scene.tracker(cube(), max_steps=wrong)),
     "threads": ("0 to 4096", lambda scene, wrong: vx.Scene(scene.volume, threads=wrong)),
     "table_size": ("2 to 16777216", lambda scene, wrong: vx.Scene(scene.volume, table_size=wrong)),
     "entries": ("1 to 3994242", lambda scene, wrong: scene.plan((0, 0, 0), avoid_opacity="1:0,2:1", entries=wrong)),

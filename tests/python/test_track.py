@@ -102,7 +102,7 @@ def test_counters_are_a_devices(device, head, knife):
     # Clusters of 64 triangles: 300 of them are 5, once for each pose.
     assert counters.clusters == 5 * len(poses) and 0 < counters.clusters_kept <= counters.clusters
     assert counters.cells_listed <= counters.cells_seen and counters.rounds >= 1 and counters.room > 0
-    assert counters.most_clusters <= counters.clusters_kept
+    assert counters.peak_clusters <= counters.clusters_kept
     # Pieces add up: those of each half are those of all.
     halves = [there.count(knife, half, counters=True).counters for half in (poses[:20], poses[20:])]
     for name in ("clusters", "clusters_kept", "runs_kept", "cells_seen", "cells_listed"):

@@ -26,6 +26,8 @@ look: vx.Look = vx.look("mr", scene.volume)
 shown: int = int(scene.picture([(mesh, np.eye(4))], clip=["left", ("near", 3), (1, 0, 0, 5)], colours=look.colours,
                                triangles=answer.triangles, show="triangles", lighting="eye").max())
 near: list[int] = vx.overlapping_pairs(mesh.boxes_at(np.eye(4)), [scene.volume.bounds])[:, 0].tolist()
+first: vx.QuestionInfo = vx.questions()[0]
+lower: float = float(scene.ask(first.name, mesh, np.eye(4), **{one.name: one.default for one in vx.settings("area")})["pairs"]["lower"][0])
 trusted: bool = vx.Device().self_test()["compute"].trusted
 '''
 

@@ -202,7 +202,7 @@ TEST_F(StepTouch, ByTheProgram) {
                 HasSubstr("--deflection: '0' is not a number from 1e-06 mm on"));
     const Ran onDevice = run(with({"--on", "device"})); // the notes of the file come before the refusal
     EXPECT_EQ(onDevice.status, 2);
-    EXPECT_THAT(linesOf(onDevice.err).back(), HasSubstr("is answered by the host engine"));
+    EXPECT_THAT(linesOf(onDevice.err).back(), HasSubstr("needs the host engine"));
 }
 
 } // namespace

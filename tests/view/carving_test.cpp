@@ -171,7 +171,7 @@ TEST(ViewCarving, ACopiedCommandSaysThatItHasNoHoles) {
     EXPECT_EQ(copyAsCommand(state.document, {}, "").find('#'), std::string::npos);
     state.document.edit.holes = 2;
     EXPECT_THAT(copyAsCommand(state.document, {}, ""),
-                testing::StartsWith("# of the volume as it was read, without the 2 holes that were drilled\necho "));
+                testing::StartsWith("# for the volume in the file, without the 2 drilled holes\necho "));
 }
 
 } // namespace voxtact::test

@@ -61,7 +61,7 @@ TEST(ViewCommand, HasALineForEachMesh) {
     two.edit.holes = 1;
     const std::string text = copyAsCommand(two, {}, "");
     EXPECT_EQ(std::ranges::count(text, '\n'), 2);
-    EXPECT_THAT(text, testing::StartsWith("# of the volume as it was read, without the hole that was drilled\necho "));
+    EXPECT_THAT(text, testing::StartsWith("# for the volume in the file, without the drilled hole\necho "));
     EXPECT_THAT(text, Not(HasSubstr("gone.stl")));
     const std::string second = text.substr(text.rfind('\n') + 1);
     EXPECT_THAT(second, testing::StartsWith("echo '1 0 0 0 0 1 0 0 0 0 1 9 0 0 0 1' | "));

@@ -26,7 +26,7 @@ Point2 placeOfHint(const State& state, ShownPanels& panels, const std::string& h
 }
 
 Point2 placeOfTip(const State& state, ShownPanels& panels) {
-    return placeOfHint(state, panels, "where the origin of the mesh is");
+    return placeOfHint(state, panels, "position of the mesh origin");
 }
 
 double tipX(const State& state) {
@@ -43,7 +43,7 @@ void clickBeside(const State& state, ShownPanels& panels) {
 TEST(ViewFields, AnAngleIsDraggedAndUndoneAsAWhole) {
     State state = smallState();
     ShownPanels panels(state);
-    const Point2 at = placeOfHint(state, panels, "degrees about x, then y, then z");
+    const Point2 at = placeOfHint(state, panels, "degrees about world x, then y, then z");
     panels.drag(at[0], at[1], 60, 0);
     const Vec3 angles = anglesOf(state.document.edit.pose());
     EXPECT_GT(angles[0], 10);
@@ -56,7 +56,7 @@ TEST(ViewFields, AnAngleIsDraggedAndUndoneAsAWhole) {
 TEST(ViewFields, AnAngleIsDraggedThroughAQuarterTurn) {
     State state = smallState();
     ShownPanels panels(state);
-    const Point2 at = placeOfHint(state, panels, "degrees about x, then y, then z");
+    const Point2 at = placeOfHint(state, panels, "degrees about world x, then y, then z");
     const double toTheNext = state.chart.size[0] / 3; // the field of y
     panels.drag(at[0] + toTheNext, at[1], 230, 0);
     const Vec3 angles = anglesOf(state.document.edit.pose(), state.typedAngles);
@@ -139,7 +139,7 @@ TEST(ViewFields, WhatWasWipedAwayIsNotTaken) {
 TEST(ViewFields, AnAngleThatIsNoNumberIsNotTaken) {
     State state = smallState();
     ShownPanels panels(state);
-    const Point2 at = placeOfHint(state, panels, "degrees about x, then y, then z");
+    const Point2 at = placeOfHint(state, panels, "degrees about world x, then y, then z");
     panels.writeAt(at[0], at[1]);
     panels.type("1e999");
     panels.tap(GLFW_KEY_ENTER);
@@ -199,7 +199,7 @@ TEST(ViewFields, WhatIsTypedMayBeWhatStoodThere) {
 TEST(ViewFields, AnAngleIsTyped) {
     State state = smallState();
     ShownPanels panels(state);
-    const Point2 at = placeOfHint(state, panels, "degrees about x, then y, then z");
+    const Point2 at = placeOfHint(state, panels, "degrees about world x, then y, then z");
     panels.writeAt(at[0], at[1]);
     panels.type("200");
     panels.tap(GLFW_KEY_ENTER);

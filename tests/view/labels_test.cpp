@@ -48,7 +48,7 @@ TEST(ViewLabels, APlaceIsToldWithValueAndLabel) {
     EXPECT_EQ(placeText(pair.view, pair.texture_from_world, nullptr, {12, 0, 0}), "12.0, 0.0, 0.0 mm: 7");
     EXPECT_EQ(placeText(pair.view, pair.texture_from_world, nullptr, {12, -0.01, 0}), "12.0, 0.0, 0.0 mm: 7");
     EXPECT_EQ(placeText(pair.view, pair.texture_from_world, &pair.labels, {20, 0, 0}),
-              "20.0, 0.0, 0.0 mm: outside of the volume   label 0");
+              "20.0, 0.0, 0.0 mm: outside the volume   label 0");
 }
 
 TEST(ViewLabels, TheMostTouchedComesFirstAndTheBackgroundOnlyAlone) {

@@ -198,14 +198,14 @@ TEST_F(ViewOpen, WhatIsReadIsNotWrittenOver) {
 
 TEST_F(ViewOpen, WhatIsOfAnotherKindIsNotWrittenOver) {
     const std::filesystem::path other = file("notes.md", "keep me");
-    EXPECT_THAT(saveSession(other, state_).error().text, HasSubstr("is there already, and is no session"));
+    EXPECT_THAT(saveSession(other, state_).error().text, HasSubstr("exists and is no session"));
     EXPECT_THAT(saveFunction(other, state_).error().text, HasSubstr("is no transfer function"));
     EXPECT_THAT(savePose(other, state_).error().text, HasSubstr("is no file of poses"));
     // And before anybody is asked whether it is to be replaced.
-    EXPECT_THAT(checkSession(other, state_).error().text, HasSubstr("is there already, and is no session"));
+    EXPECT_THAT(checkSession(other, state_).error().text, HasSubstr("exists and is no session"));
     EXPECT_THAT(checkFunction(other, state_).error().text, HasSubstr("is no transfer function"));
     EXPECT_THAT(checkPose(other, state_).error().text, HasSubstr("is no file of poses"));
-    EXPECT_THAT(checkPicture(other, state_).error().text, HasSubstr("the ending of a picture is .png"));
+    EXPECT_THAT(checkPicture(other, state_).error().text, HasSubstr("the ending must be .png"));
     EXPECT_THAT(checkPicture(file("text.png", "no picture"), state_).error().text, HasSubstr("is no picture"));
     EXPECT_TRUE(checkPicture(folder_ / "new.PNG", state_).ok());
     std::ifstream kept(other);

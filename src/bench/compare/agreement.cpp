@@ -55,7 +55,7 @@ std::string fragmentText(const DifferingFragment& differing) {
     const oracle::OracleFragment& fragment = differing.fragment;
     return concat("the fragment of triangle ", fragment.triangle, " at pixel ", fragment.x, ",", fragment.y,
                   differing.onDevice ? " is the device's, not the oracle's" : " is the oracle's, not the device's",
-                  ", and rounding is no reason");
+                  ", and rounding does not explain it");
 }
 
 /// The first rule that a pose breaks.
@@ -76,7 +76,7 @@ CompareVerdict judgeGroup(std::span<const NamedCounts> run, Coverage coverage, s
     std::ranges::transform(methodsThatCount(coverage), std::back_inserter(names),
                            [](CountingMethod method) { return toString(method); });
     CompareVerdict verdict = verdictOn(names);
-    verdict.unchecked = "none of them was run";
+    verdict.unchecked = "none of them ran";
     return verdict;
 }
 
@@ -141,7 +141,7 @@ CompareVerdict judgeEqual(std::span<const NamedCounts> group, std::span<const st
 }
 
 CompareVerdict judgeHits(const NamedCounts& any, const NamedCounts& exact, std::span<const std::uint32_t> poses) {
-    CompareVerdict verdict{.rule = any.method + " hits where " + exact.method + " does", .byRule = true};
+    CompareVerdict verdict{.rule = any.method + " touches where " + exact.method + " does", .byRule = true};
     const auto hits = [](const NamedCounts& by, std::size_t i) { return by.counts[i] != 0; };
     comparePoses(
         poses, verdict, [&](std::size_t i) { return std::uint64_t{hits(any, i) == hits(exact, i) ? 0U : 1U}; },
@@ -161,9 +161,9 @@ bool explainedByRounding(std::uint64_t raster, std::uint64_t host, bool yesNo) n
 
 std::string roundingRule(const std::string& raster, const std::string& host, bool yesNo) {
     const std::string fragments = std::to_string(kRoundedFragments) + " fragments";
-    return yesNo ? raster + " hits where " + host + " counts more than " + fragments + ", and not where it counts none"
-                 : raster + " and " + host + " are apart by no more than (half of " + host + "'s count + " + fragments +
-                       ")";
+    return yesNo
+               ? raster + " touches where " + host + " counts more than " + fragments + ", and not where it counts none"
+               : raster + " and " + host + " differ by at most (half of " + host + "'s count + " + fragments + ")";
 }
 
 CompareVerdict judgeRounding(const NamedCounts& raster, const NamedCounts& host, std::span<const std::uint32_t> poses) {
@@ -190,7 +190,7 @@ CompareVerdict tellDifference(const NamedCounts& one, const NamedCounts& other, 
     };
     const NamedCounts both[] = {one, other};
     comparePoses(poses, verdict, apart, [&](std::size_t i) { return countText(both, i); });
-    verdict.detail = grouped(sum) + " of " + grouped(all) + " fragments apart in all";
+    verdict.detail = grouped(sum) + " of " + grouped(all) + " fragments in total";
     return verdict;
 }
 

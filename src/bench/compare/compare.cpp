@@ -131,7 +131,7 @@ std::string whyNot(const device::Session& session, CountingMethod method) {
     }
     const auto all = session.context.methods();
     const auto support = std::ranges::find(all, method, &MethodSupport::method);
-    return support == all.end() ? "this version has it not" : support->available ? std::string() : support->reason;
+    return support == all.end() ? "not in this version" : support->available ? std::string() : support->reason;
 }
 
 /// The oracle's time is that of its checks: one thread, one pose after the other.
@@ -225,7 +225,7 @@ Result<void> addTrust(const device::Session& session, std::vector<MethodEntry>& 
         method->trusted = verdict.trusted;
         method->selfTest = verdict.text;
         if (method->available && !verdict.trusted) {
-            notes.push_back(method->name + " is not to be trusted on this device, by its self-test: " + verdict.text);
+            notes.push_back(method->name + " is not trusted on this device; its self-test: " + verdict.text);
         }
     }
     return {};

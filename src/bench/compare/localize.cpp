@@ -28,7 +28,7 @@ Result<Engines> makeWays(const device::Session& session, const Scene& scene, Loc
     std::string why;
     if (!fragments.ok()) {
         why = fragments.error().text;
-        result.notes.push_back("no way fragments on this device: " + why);
+        result.notes.push_back("no method fragments on this device: " + why);
     }
     if (!fragments.ok() && fragments.error().code != ErrorCode::Unsupported) {
         return fragments.error();
@@ -108,7 +108,7 @@ Result<void> findAll(const Engines& engines, const CompareSettings& settings, co
     if (*rounds < settings.repeats) {
         step((settings.repeats - *rounds) * scene.poses.size());
         result.notes.push_back(concat(*rounds, " of ", settings.repeats,
-                                      " rounds of which triangles touch: more would not fit in the time for them"));
+                                      " rounds of finding touched triangles: more would exceed the time limit"));
     }
     return {};
 }
@@ -207,14 +207,14 @@ std::vector<std::string> sentences(const LocalizeResult& result) {
                                   : findsNothing(result) ? ": no triangle on any pose"
                                                          : ": the same triangles with the same counts on every pose"));
     TextStream missed;
-    missed << "the camera shows " << grouped(result.ways.front().triangles) << " touching triangles, "
+    missed << "the camera shows " << grouped(result.ways.front().triangles) << " touching triangles; "
            << grouped(result.ways.back().triangles) << " certainly touch";
     if (const auto percent = percentOf(result.ways.front().missed, result.ways.back().triangles)) {
         missed << ": " << std::fixed << std::setprecision(1) << *percent << " % are missed";
     }
     out.push_back(missed.str());
     for (const WrongTriangle& wrong : result.wrong) {
-        out.push_back(concat("found and not certified: pose ", wrong.pose, ", triangle ", wrong.triangle, ", ",
+        out.push_back(concat("found but not certified: pose ", wrong.pose, ", triangle ", wrong.triangle, ", ",
                              wrong.fragments, " fragments; by bounds: ", wrong.certified));
     }
     return out;

@@ -89,8 +89,8 @@ std::string sentenceOf(const CompareVerdict& verdict) {
         return concat("DISAGREEMENT: ", verdict.rule, ": pose ", verdict.first->pose, ": ", verdict.first->text);
     }
     if (verdict.unit == "fragments") {
-        return "of " + plural(verdict.compared, "fragments") + " that the device's rasteriser or the oracle has, " +
-               grouped(verdict.differing) + " are of one side only" +
+        return "of " + plural(verdict.compared, "fragments") + " from the device's rasteriser or the oracle, " +
+               grouped(verdict.differing) + " are from one of them only" +
                (verdict.differing > 0 ? ", each within rounding of a decision" : "") + " (" + verdict.detail + ")";
     }
     const std::string where = (verdict.compared == 1 ? "the one pose" : "all " + plural(verdict.compared, "poses"));
@@ -119,7 +119,7 @@ std::vector<std::string> summarize(const CompareResult& result) {
             sentences.push_back(speedOf(*best, what));
         }
     };
-    addFastest(Mode::Sync, 1, "for 1 pair, waited for");
+    addFastest(Mode::Sync, 1, "for 1 pair, waiting for each");
     addFastest(Mode::Pipelined, 1024, "for 1,024 pairs, in flight");
     return sentences;
 }

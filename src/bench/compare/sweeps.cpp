@@ -63,9 +63,9 @@ Result<double> takeSample(Point& point) {
 
 std::string describe(const Series& series) {
     return concat("no time of ", series.method, " for ",
-                  series.mode == Mode::Sync ? "pairs that are waited for" : concat("batches of ", series.batch), " (",
+                  series.mode == Mode::Sync ? "pairs submitted one by one" : concat("batches of ", series.batch), " (",
                   series.triangles, " triangles, ", series.width, "x", series.height, ", ", sizeText(series.voxels),
-                  " voxels): one would take more than a quarter of the sweep's time");
+                  " voxels): it would take more than a quarter of the time limit");
 }
 
 /// Warms everything up once, which estimates the time of a batch. A batch longer than `most` is not timed, with a note.
@@ -104,8 +104,8 @@ void takeSamePoses(std::span<Point> group, double most, const CompareRun& run) {
     if (pairs < run.scene.poses.size() && series.sweep == Sweep::Batch) {
         run.result.notes.push_back(
             concat(series.mode == Mode::Sync ? "waited for: " : "in flight, batches of " + grouped(batch) + ": ",
-                   "the times of all methods are of the same ", grouped(pairs), " of the ",
-                   grouped(run.scene.poses.size()), " poses; a longer --time-limit takes more"));
+                   "all methods are timed on the same ", grouped(pairs), " of the ", grouped(run.scene.poses.size()),
+                   " poses; increase --time-limit for more"));
     }
 }
 
@@ -285,7 +285,7 @@ Result<std::vector<Swept>> pointsOf(const CompareRun& run, Sweep sweep) {
     std::vector<Swept> points;
     if (!viewports && !source.starts_with("builtin:")) {
         run.result.notes.push_back(concat("no sweep of ", toString(sweep), ": the ", meshes ? "mesh" : "volume",
-                                          " is not a builtin one, which has any size"));
+                                          " is no builtin, so its size is fixed"));
         return points;
     }
     const auto resize = meshes ? sizeMesh : viewports ? sizeViewport : sizeVolume;

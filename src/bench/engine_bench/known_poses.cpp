@@ -150,10 +150,9 @@ void noteEnded(const BenchRun& run) {
             largest = row.engine == engine.facts ? std::max(largest, row.pairs) : largest;
         }
         if (largest < run.settings.number) {
-            run.result.notes.push_back(concat(engine.facts.text(),
-                                              engine.facts.posesOn == "device" ? ", poses on the device" : "",
-                                              ": batches of more than ", counted(largest, "pose"),
-                                              " are left out, as they do not fit in --time-limit"));
+            run.result.notes.push_back(
+                concat(engine.facts.text(), engine.facts.posesOn == "device" ? ", poses on the device" : "",
+                       ": batches of more than ", counted(largest, "pose"), " exceed --time-limit and are left out"));
         }
     }
 }
@@ -166,19 +165,19 @@ std::string judgePose(const EngineFacts& engine, const PairAnswer& answer, PoseT
     const auto says = [any](const PairAnswer& one, std::uint64_t counted) {
         return one.possible ? std::string("possible") : any ? one.hit ? "a hit" : "no hit" : std::to_string(counted);
     };
-    const std::string said = engine.text() + " says " + says(answer, answer.count);
+    const std::string text = engine.text() + " says " + says(answer, answer.count);
     if (raster && !any && !truth.raster) {
         truth.raster = answer;
     }
     if (raster && !isNear(answer, truth.view)) {
-        return concat(said, " where cpu counts ", truth.view.count,
-                      ": more than what roundings of a rasteriser explain");
+        return concat(text, " where cpu counts ", truth.view.count,
+                      ": more than the rounding of a rasteriser explains");
     }
     const PairAnswer& must = engine.certified ? truth.certified : raster ? truth.raster.value_or(answer) : truth.view;
     const bool yesNo = engine.question == questionOf(true, {});
     const std::uint64_t count = yesNo ? (must.hit ? 1 : 0) : must.count;
     const bool right = answer.hit == must.hit && answer.possible == must.possible && (any || answer.count == count);
-    return right ? std::string() : said + ", it must be " + says(must, count);
+    return right ? std::string() : text + "; expected: " + says(must, count);
 }
 
 std::uint32_t tickRounds(std::uint32_t ticks) {

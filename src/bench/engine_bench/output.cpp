@@ -74,7 +74,7 @@ const ModeOutput& outputOf(BenchMode mode) {
         {addRateColumns, kNotOfRates,
          ", ratios of projections to the view by the same method, of outputs to the bare count, round by round"},
         {addTickColumns, {"triangles", "touching", "rounding"}, ", one pair per tick"},
-        {addBatchColumns, {}, ", a batch is a submission that is waited for, or a call of the host"},
+        {addBatchColumns, {}, ", a batch is a submission with a wait, or a call of the host"},
     }};
     return kOutputs.at(static_cast<std::size_t>(mode));
 }
@@ -182,7 +182,7 @@ void noteTicks(const BenchSettings& settings, const BenchResult& result, std::ve
     const auto isCut = [&](const BenchRow& of) { return of.wall.size() < settings.number; };
     if (result.disagreement.empty() && std::ranges::any_of(result.rows, isCut)) {
         notes.push_back(concat("rows of fewer than ", settings.number,
-                               " ticks are of the first ones: the engine's share of --time-limit was used up"));
+                               " ticks have only the first ticks: the engine's share of --time-limit ran out"));
     }
     std::vector<std::string> blind;
     for (const BenchRow& row : result.rows) {
@@ -192,8 +192,7 @@ void noteTicks(const BenchSettings& settings, const BenchResult& result, std::ve
     }
     if (!blind.empty()) {
         notes.push_back(
-            "no tick of these touches (a stroke begins outside): their times are of poses without contact, and "
-            "their answers were all no: " +
+            "these rows have only poses without contact (a stroke begins outside), so all answers are no: " +
             joined(blind, ", "));
     }
 }
@@ -203,7 +202,7 @@ void noteBatches(const BenchSettings& settings, const BenchResult& result, std::
     const auto isCut = [&](const BenchRow& of) { return of.wall.size() < settings.repetitions; };
     if (result.disagreement.empty() && std::ranges::any_of(result.rows, isCut)) {
         notes.push_back(concat("rows of fewer than ", counted(settings.repetitions, "sample"),
-                               ": the engine's share of --time-limit was used up"));
+                               ": the engine's share of --time-limit ran out"));
     }
 }
 

@@ -55,7 +55,7 @@ std::string compareCounts(std::span<const PairAnswer> bare, std::span<const Pair
     for (std::size_t i = 0; i < bare.size(); ++i) {
         if (bare[i].count != answers[i].count) {
             return concat(row.mesh, ", poses ", row.poses, ", pose ", i, ": ", row.engine.text(), " counts ",
-                          answers[i].count, ", without the output it is ", bare[i].count);
+                          answers[i].count, ", but without the output ", bare[i].count);
         }
     }
     return {};
@@ -135,7 +135,7 @@ std::string judgeEngine(std::span<const PairAnswer> certified, std::span<const P
         if (row.engine.certified && disagreement.empty() &&
             (answer.hit != truth.hit || answer.possible != truth.possible || answer.count != expected)) {
             disagreement = concat(row.mesh, ", poses ", row.poses, ", pose ", i, ": ", row.engine.name, " ",
-                                  row.engine.question, " says ", answer.count, ", it must be ", expected);
+                                  row.engine.question, " says ", answer.count, "; expected: ", expected);
         }
     }
     return disagreement;

@@ -5,7 +5,7 @@
 #include "device/detector/pass_desc.h"
 #include "device/engine/pair_pipeline.h"
 #include "vulkan/context_impl.h"
-#include "vulkan/memory.h"
+#include "vulkan/memory/memory.h"
 #include "vulkan/own/timed_commands.h"
 
 #include <algorithm>

@@ -79,12 +79,12 @@ Machine describeMachine(const device::Session& session, ScalarType type, const P
             "atomic and subgroup draw a batch at once");
     }
     if (isHopper(physical)) {
-        machine.notes.emplace_back("on this card only two TPCs (4 of 132 multiprocessors) run vertex and fragment "
-                                   "shaders: every time of query, query-any, atomic and subgroup is of a small part of "
-                                   "it, and compute is not held back");
+        machine.notes.emplace_back("on this GPU only two TPCs (4 of 132 multiprocessors) run vertex and fragment "
+                                   "shaders: query, query-any, atomic and subgroup use a small part of the GPU, "
+                                   "compute uses all of it");
     }
     if (!session.device.hasTimestamps()) {
-        machine.notes.emplace_back("the queue has no timestamps: there is no GPU time");
+        machine.notes.emplace_back("the queue has no timestamps: no GPU times");
     }
     return machine;
 }

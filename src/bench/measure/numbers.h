@@ -48,7 +48,7 @@ inline void keep(const std::optional<double>& time, std::vector<double>& samples
 [[nodiscard]] std::optional<double> percentOf(std::uint64_t part, std::uint64_t whole);
 
 /// Said where it makes agreement a small thing.
-inline constexpr const char* kNothingTouches = "nothing touches on any pose: that all agree says little";
+inline constexpr const char* kNothingTouches = "no pose touches: agreement means little";
 
 /// Six significant digits: more would be noise. 0 if not finite.
 [[nodiscard]] double rounded(double value);

@@ -182,7 +182,7 @@ void addOthers(const PaperResult& result, std::vector<Section>& sections) {
                             tableOfAll(result.polygons)});
     }
     if (!result.integration.empty()) {
-        sections.push_back({"Making the pre-integrated table", tableOfAll(result.integration)});
+        sections.push_back({"Computing the pre-integrated table", tableOfAll(result.integration)});
     }
 }
 

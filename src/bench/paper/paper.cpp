@@ -19,11 +19,11 @@ constexpr double kFramesShare = 0.65;
 
 void addNotes(const PaperSettings& settings, PaperResult& result) {
     result.notes.emplace_back(
-        "recording is in none of the times; collision: the detection of one pair, alone; "
+        "times exclude recording; collision: the detection of one pair, alone; "
         "overhead: of a frame with the detection in it against one without, round by round; a round "
         "has one frame without it for all methods");
-    result.notes.emplace_back("mesh and volume are times of the GPU only; cpu detects while the picture is made, which "
-                              "the wall clock alone tells");
+    result.notes.emplace_back("mesh and volume have GPU times only; cpu detects while the GPU draws, so only the wall "
+                              "clock includes it");
     // More samples never have less of an interval, and there may be more than the memory holds at once.
     constexpr std::uint32_t kEnough = 100;
     if (!medianInterval(std::vector<double>(std::min(settings.repetitions, kEnough)), kConfidence)) {
@@ -31,9 +31,8 @@ void addNotes(const PaperSettings& settings, PaperResult& result) {
                                   "--repetitions on");
     }
     if (settings.scale > 1) {
-        result.notes.push_back(
-            concat("--scale ", settings.scale,
-                   ": the volumes are smaller than the paper's, and the times are not to be compared"));
+        result.notes.push_back(concat("--scale ", settings.scale,
+                                      ": the volumes are smaller than the paper's, so the times are not comparable"));
     }
 }
 
@@ -200,7 +199,7 @@ Result<void> runPaperSweeps(const PaperRun& run, double seconds, const Scene& v1
     if (!run.agrees()) {
         return {};
     }
-    run.steps.doing("which triangles touch");
+    run.steps.doing("finding touched triangles");
     VOXTACT_TRY(findPolygons(run, how, v1s1));
     if (!run.agrees()) {
         return {};

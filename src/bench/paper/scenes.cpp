@@ -77,7 +77,7 @@ Result<void> checkData(const PaperSettings& settings) {
     }
     return Error{
         ErrorCode::File, 0,
-        concat("--data ", settings.data.string(), ": none of ", files[0], ", ", files[1], ", ", files[2], " is there")};
+        concat("--data ", settings.data.string(), ": none of ", files[0], ", ", files[1], ", ", files[2], " exists")};
 }
 
 using Histogram = std::array<std::uint64_t, 256>;

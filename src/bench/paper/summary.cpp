@@ -38,12 +38,12 @@ void addAgreement(const PaperResult& result, std::vector<std::string>& sentences
         }
     }
     if (!where.empty()) {
-        sentences.push_back(where + ", on every pose of every scene; every frame that was timed gave these counts");
+        sentences.push_back(where + ", on every pose of every scene; every timed frame gave these counts");
     }
     const std::vector<std::string> raster = measured(result, {Query, Atomic, Subgroup});
     if (!raster.empty() && !measured(result, {Cpu}).empty()) {
         sentences.push_back(roundingRule(raster.front(), toString(CountingMethod::Cpu)) +
-                            ", on every pose; no oracle was asked");
+                            ", on every pose; not checked by an oracle");
     }
 }
 
@@ -75,7 +75,7 @@ std::string nameOf(const PaperRow& row, const PaperResult& result) {
 /// "2.6 %", or "nothing that can be measured (noise: -1.8 %)".
 std::string percentText(double median) {
     const std::string text = shortNumber(median) + " %";
-    return median < 0 ? "nothing that can be measured (noise: " + text + ")" : text;
+    return median < 0 ? "nothing measurable (noise: " + text + ")" : text;
 }
 
 void addPercents(const PaperResult& result, std::vector<std::string>& sentences) {

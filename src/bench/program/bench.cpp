@@ -35,8 +35,8 @@ struct ModeFlag {
 constexpr std::array<ModeFlag, 5> kModes{{
     {"--certified", BenchMode::Certified, "certified touches and counts"},
     {"--outputs", BenchMode::Outputs, "cost of each projection and output"},
-    {"--latency", BenchMode::Latency, "time until the answer for one pair"},
-    {"--batches", BenchMode::Batches, "cost of a batch by its size"},
+    {"--latency", BenchMode::Latency, "latency of one pair"},
+    {"--batches", BenchMode::Batches, "cost of a batch, by batch size"},
     {"--paper", std::nullopt, "the paper's tables and sweeps; default"},
 }};
 
@@ -95,18 +95,18 @@ Result<void> checkTogether(const BenchOptions& options, const CLI::App& parser) 
     for (const char* option : paper ? std::span<const char* const>(kOfScenes) : kOfPaper) {
         if (parser.count(option) > 0) {
             return badArgument(paper ? std::string("--paper has its own scenes; leave out ") + option +
-                                           ", or ask for --certified, --outputs, --latency or --batches"
-                                     : std::string(option) + " is for --paper");
+                                           ", or add --certified, --outputs, --latency or --batches"
+                                     : std::string(option) + " needs --paper");
         }
     }
     if (parser.count("--time-limit") > 0 && !paper && !latency && options.mode != BenchMode::Batches) {
-        return badArgument("--time-limit is for --paper, --latency and --batches");
+        return badArgument("--time-limit needs --paper, --latency or --batches");
     }
     if (parser.count("--repetitions") > 0 && latency) {
-        return badArgument("--repetitions is not for --latency; --number says how many ticks there are");
+        return badArgument("--repetitions: not with --latency; use --number for the number of ticks");
     }
     if (options.paperSettings.scale > 1 && !options.paperSettings.data.empty()) {
-        return badArgument("--scale is for builtin volumes; leave out --data");
+        return badArgument("--scale needs builtin volumes; leave out --data");
     }
     return {};
 }

@@ -68,7 +68,7 @@ Result<void> measure(const BenchOptions& options, const CLI::App& parser, const 
 
 Outcome runBenchEngines(const BenchOptions& options, const CLI::App& parser) {
     if (options.volumes.size() > 1) {
-        return badArgument("one --volume is enough, not several");
+        return badArgument("--volume: a benchmark needs only one; leave out the others");
     }
     if (const Result<void> writable =
             checkOutputs({{"--output", options.output.path}},
@@ -92,7 +92,7 @@ Outcome runBenchEngines(const BenchOptions& options, const CLI::App& parser) {
     }
     Outcome outcome;
     if (!result.disagreement.empty()) {
-        outcome = {kExitVerify, "engines that must agree do not: " + result.disagreement};
+        outcome = {kExitVerify, "engines disagree: " + result.disagreement};
         if (options.mode == BenchMode::Certified || options.mode == BenchMode::Outputs) {
             return outcome;
         }

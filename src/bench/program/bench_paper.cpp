@@ -20,7 +20,7 @@ Result<void> writeOutputs(const BenchOptions& options, const PaperResult& result
                                       }}};
     if (!options.report.empty()) {
         deliveries.push_back({options.report, [&](std::ostream& out) -> Result<void> {
-                                  writeReport(out, "voxtact bench --paper: the paper's measurements, made again",
+                                  writeReport(out, "voxtact bench --paper: the paper's measurements, repeated",
                                               paperJson(result));
                                   return {};
                               }});
@@ -49,7 +49,7 @@ Outcome runPaper(const BenchOptions& options, const CLI::App& parser) {
         return failed;
     }
     if (!result.disagreement.empty()) {
-        return {kExitVerify, "methods that must agree do not: " + result.disagreement};
+        return {kExitVerify, "methods disagree: " + result.disagreement};
     }
     const Result<void> written = writeOutputs(options, result);
     return written.ok() ? Outcome() : Outcome(written.error());

@@ -51,7 +51,7 @@ Outcome outcomeOf(const CompareOptions& options, const CLI::App& parser, const C
                                                    "--oracle", "--keep-going", "--progress"}) +
                               " --only-pose " + std::to_string(failure->first->pose) + " --oracle " +
                               (options.settings.oraclePoses > 0 ? "1" : "0") + " --sweep " + failure->sweep;
-    return {kExitVerify, disagreementOf(*failure) + "; again with: " + again};
+    return {kExitVerify, disagreementOf(*failure) + "; reproduce with: " + again};
 }
 
 Outcome runCompare(const CompareOptions& given, const CLI::App& parser) {

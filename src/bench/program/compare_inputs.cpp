@@ -31,7 +31,7 @@ Result<void> choosePoses(const CompareOptions& options, lab::Scene& scene) {
     }
     const std::uint32_t only = *options.onlyPose;
     if (only >= scene.poses.size()) {
-        return badArgument("--only-pose: there is no pose " + std::to_string(only) + ", the last is " +
+        return badArgument("--only-pose: there is no pose " + std::to_string(only) + "; the last is " +
                            std::to_string(scene.poses.size() - 1));
     }
     scene.poses = {scene.poses[only]};
@@ -55,7 +55,7 @@ Result<void> chooseCamera(const CompareOptions& options, lab::Scene& scene) {
 
 Result<lab::Scene> readScene(const CompareOptions& options) {
     if (options.volumes.size() != 1 || options.meshes.sources.size() != 1) {
-        return badArgument("one --volume and one --mesh are needed, not several");
+        return badArgument("--volume, --mesh: give each once");
     }
     Result<VolumePart> volume = loadVolumePart(options.volumes.front(), options.transferFunction);
     VOXTACT_TRY(volume);

@@ -37,14 +37,14 @@ void readMethods(const std::string& list, std::vector<CountingMethod>& methods) 
     for (const std::string& name : partsOf(list)) {
         const std::optional<CountingMethod> method = countingMethodFromName(name);
         if (!method) {
-            throw CLI::ValidationError("--methods", "'" + name + "' is not known; there are: " + methodNames());
+            throw CLI::ValidationError("--methods", "'" + name + "' is unknown; choose from: " + methodNames());
         }
         if (std::find(methods.begin(), methods.end(), *method) == methods.end()) {
             methods.push_back(*method);
         }
     }
     if (methods.empty()) {
-        throw CLI::ValidationError("--methods", "no method; there are: " + methodNames());
+        throw CLI::ValidationError("--methods", "no method; choose from: " + methodNames());
     }
 }
 
@@ -58,7 +58,7 @@ void readSweep(const std::string& name, CompareOptions& options) {
     }
     if (options.settings.sweeps.empty() && name != "none") {
         throw CLI::ValidationError(
-            "--sweep", "'" + name + "' is not known; there are: batch, triangles, fragments, voxels, all, none");
+            "--sweep", "'" + name + "' is unknown; choose from: batch, triangles, fragments, voxels, all, none");
     }
 }
 
@@ -92,7 +92,7 @@ void addCompareOptions(CLI::App& parser, CompareOptions& options) {
             methodNames() + "; default: all")
         ->type_name("LIST");
     addWholeNumber(parser, "--oracle", options.settings.oraclePoses, 0,
-                   "poses to check by fragment against the oracle");
+                   "poses whose fragments are checked against the oracle");
     parser
         .add_option_function<std::string>(
             "--sweep", [&options](const std::string& name) { readSweep(name, options); },
@@ -104,7 +104,7 @@ void addCompareOptions(CLI::App& parser, CompareOptions& options) {
     parser.add_flag("--keep-going", options.settings.keepGoing,
                     "after a disagreement, time the methods and write outputs; exit status 3");
     CLI::Option* localize =
-        parser.add_flag("--localize", options.localize, "compare methods to find touched triangles instead");
+        parser.add_flag("--localize", options.localize, "compare methods that find touched triangles instead");
     addPath(parser, "--report", options.report, "HTML page of tables");
     for (const char* other : {"--methods", "--oracle", "--sweep", "--report"}) {
         localize->excludes(other);

@@ -30,7 +30,7 @@ Outcome outcomeOf(const LocalizeResult& result, const CLI::App& parser) {
     if (!result.verdict.failed()) {
         return {};
     }
-    return {kExitVerify, disagreementOf(result.verdict) + "; again with: " +
+    return {kExitVerify, disagreementOf(result.verdict) + "; reproduce with: " +
                              commandLine(parser, {"--output", "--format", "--only-pose", "--progress"}) +
                              " --only-pose " + std::to_string(result.verdict.first->pose)};
 }

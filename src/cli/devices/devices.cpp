@@ -17,11 +17,11 @@ namespace voxtact::app {
 namespace {
 
 constexpr const char* kDevicesFooter =
-    R"(Output: a row a device and counting method
+    R"(Output: one row per device and counting method
   index,name,type,api,driver,subgroup_size
   default     1: used without --device
   available   1: the device supports the method
-  trusted     1: the self-test counted right
+  trusted     1: the self-test passed
   verdict     result of the self-test, or the missing feature
 
 Example:
@@ -38,8 +38,8 @@ struct DevicesOptions {
 struct DeviceRow {
     device::PhysicalDevice device;
     bool standard = false;
-    std::optional<SelfTestVerdict> verdict; ///< nothing: the device cannot be used
-    std::string reason;                     ///< why not
+    std::optional<SelfTestVerdict> verdict; ///< empty: the device is unusable
+    std::string reason;                     ///< why the device is unusable
 };
 
 Result<std::vector<SelfTestVerdict>> judge(const device::VulkanInstance& instance,

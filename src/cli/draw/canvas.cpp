@@ -46,9 +46,9 @@ struct Pixels {
     int bottom;
 };
 
-/// A whole number of pixels, whatever the point is.
-int within(double at, int most) {
-    return static_cast<int>(std::clamp(at, 0.0, static_cast<double>(most)));
+/// Returns whole pixels, also for a point far outside the picture.
+int within(double at, int max) {
+    return static_cast<int>(std::clamp(at, 0.0, static_cast<double>(max)));
 }
 
 } // namespace

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-/// Drawing on a finished picture: soft edges, colours and opacities from 0 to 1, pixels from the uppermost left corner.
+/// Draws on a finished picture with antialiased edges. Colours and opacities: 0 to 1. Origin: the upper left corner.
 namespace voxtact::app {
 
 struct Point {
@@ -37,21 +37,21 @@ struct Mask {
 
 class Canvas {
   public:
-    /// Draws on these pixels, four bytes each.
+    /// Draws on `pixels`, four bytes each.
     Canvas(std::span<std::uint8_t> rgba, std::uint32_t width, std::uint32_t height);
 
     [[nodiscard]] double width() const { return width_; }
     [[nodiscard]] double height() const { return height_; }
 
     void fill(const Box2& box, const Colour& colour, double opacity = 1);
-    /// A convex polygon.
+    /// Fills a convex polygon.
     void fill(std::span<const Point> corners, const Colour& colour, double opacity = 1);
     void line(const Point& from, const Point& to, double thickness, const Colour& colour, double opacity = 1);
-    /// A disc round a point.
+    /// Fills a disc.
     void dot(const Point& middle, double across, const Colour& colour, double opacity = 1);
     void outline(const Box2& box, double thickness, const Colour& colour, double opacity = 1);
     void blend(const Mask& mask, const Colour& colour, double opacity = 1);
-    /// The mean of how bright a part of the picture is, 0..1; outside of the picture nothing is counted.
+    /// Returns the mean brightness of a rectangle, 0..1; ignores its part outside the picture.
     [[nodiscard]] double brightness(const Box2& box) const;
 
   private:

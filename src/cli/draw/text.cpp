@@ -40,7 +40,7 @@ std::size_t sequenceLength(unsigned char first) {
                                            : 0;
 }
 
-/// The next letter of UTF-8, which is taken off the text.
+/// Removes the next UTF-8 letter from the text and returns it.
 char32_t takeLetter(std::string_view& text) {
     const auto first = static_cast<unsigned char>(text.front());
     const std::size_t length = sequenceLength(first);
@@ -62,7 +62,7 @@ char32_t takeLetter(std::string_view& text) {
     return letter;
 }
 
-/// Calls `place` for each letter with its glyph and where it begins. Returns where the text ends.
+/// Calls `place` with the glyph and position of each letter. Returns the end of the text.
 template <class Place> double walk(std::string_view text, double size, Place place) {
     const double scale = static_cast<double>(scaleOf(size));
     double at = 0;
@@ -119,7 +119,7 @@ Mask rimOf(const Mask& mask, double radius) {
     const int reach = static_cast<int>(std::ceil(radius));
     for (int y = 0; y < mask.height; ++y) {
         for (int x = 0; x < mask.width; ++x) {
-            float most = 0;
+            float max = 0;
             for (int dy = -reach; dy <= reach; ++dy) {
                 for (int dx = -reach; dx <= reach; ++dx) {
                     const int column = x + dx;
@@ -129,13 +129,13 @@ Mask rimOf(const Mask& mask, double radius) {
                     }
                     const double away = std::hypot(dx, dy);
                     const auto weight = static_cast<float>(std::clamp(radius + 1 - away, 0.0, 1.0));
-                    most = std::max(
-                        most, weight * mask.cover[static_cast<std::size_t>(row) * static_cast<std::size_t>(mask.width) +
-                                                  static_cast<std::size_t>(column)]);
+                    max = std::max(
+                        max, weight * mask.cover[static_cast<std::size_t>(row) * static_cast<std::size_t>(mask.width) +
+                                                 static_cast<std::size_t>(column)]);
                 }
             }
             rim.cover[static_cast<std::size_t>(y) * static_cast<std::size_t>(mask.width) +
-                      static_cast<std::size_t>(x)] = most;
+                      static_cast<std::size_t>(x)] = max;
         }
     }
     return rim;

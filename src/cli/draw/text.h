@@ -6,17 +6,17 @@
 #include <string>
 #include <string_view>
 
-/// Text in pictures, in DejaVu Sans, which is part of the program. Sizes are of an em, in pixels.
+/// Text in pictures, in the built-in font DejaVu Sans. Sizes: pixels per em.
 namespace voxtact::app {
 
-/// Width of UTF-8 text; invalid bytes are drawn as a replacement character.
+/// Returns the width of UTF-8 text; invalid bytes are drawn as a replacement character.
 [[nodiscard]] double textWidth(std::string_view text, double size);
-/// Height of a capital letter.
+/// Returns the height of a capital letter.
 [[nodiscard]] double capitalHeight(double size);
 /// Returns the longest beginning that fits the width, with an ellipsis if shortened.
 [[nodiscard]] std::string shortened(std::string_view text, double size, double widest);
 
-/// The cover of a line of text whose first letter begins at x, on this base line.
+/// Returns the coverage of a line of text that begins at x on the given base line.
 [[nodiscard]] Mask textMask(std::string_view text, double size, const Point& base);
 /// Draws in white or black, whichever has more contrast, with a rim of the other colour: readable on any background.
 void drawText(Canvas& canvas, std::string_view text, double size, const Point& base);

@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kSchema = "https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/Markups/"
                                 "Resources/Schema/markups-schema-v1.0.3.json#";
 
-/// File names may hold any bytes; the ones that are not UTF-8 are replaced.
+/// Replaces bytes that are not UTF-8, which file names may have.
 std::string dump(const Json& json) {
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -68,7 +68,7 @@ Json boxOf(const PairOptions& options, const KeptBounds& kept) {
 
 void writeContactsMarkups(std::ostream& out, const PairOptions& options, const PairInputs& inputs,
                           const ContactList& list) {
-    // Point by point: one JSON value of a million points would take gigabytes.
+    // Writes point by point: one JSON value of a million points would take gigabytes.
     out << "{\n\"@schema\": " << dump(kSchema) << ",\n\"markups\": [\n"
         << "{\"type\": \"Fiducial\", \"coordinateSystem\": \"LPS\", \"coordinateUnits\": \"mm\", \"locked\": true,\n"
         << "\"labelFormat\": \"%N-%d\", \"name\": \"contacts\", \"controlPoints\": [";

@@ -25,7 +25,7 @@ template <> constexpr const char* kVtkType<double> = "Float64";
 template <> constexpr const char* kVtkType<std::int32_t> = "Int32";
 template <> constexpr const char* kVtkType<std::int64_t> = "Int64";
 
-/// Text in an attribute or between tags.
+/// Escapes text for attributes and content.
 std::string inXml(const std::string& text) {
     std::string out;
     for (const char c : escaped(text)) {
@@ -34,8 +34,8 @@ std::string inXml(const std::string& text) {
     return out;
 }
 
-/// The arrays of a file: their tags, and their bytes behind these. Twice through the same calls, so that a million
-/// contacts need no second copy: first the tags are written, then the bytes.
+/// Arrays of a file: first their tags, then their bytes. Callers add the arrays twice, so that a million contacts need
+/// no second copy.
 class VtpArrays {
   public:
     VtpArrays(std::ostream& out, bool tags) : out_(out), tags_(tags) {}
@@ -88,7 +88,7 @@ struct VtpContent {
     void addArrays(VtpArrays& arrays) const;
 
   private:
-    /// A number of each contact; the corners of boxes have none of their own.
+    /// Adds a number per contact; corners of boxes get a filler.
     template <class Number, class Get>
     void addOfContacts(VtpArrays& arrays, const char* name, Number none, const Get& get) const {
         arrays.add<Number>(name, points(), [&](const auto& put) {
@@ -100,7 +100,7 @@ struct VtpContent {
             }
         });
     }
-    /// A number of each cell: a contact's point, or a side of a box.
+    /// Adds a number per cell: the point of a contact, or an edge of a box.
     template <class Get> void addOfCells(VtpArrays& arrays, const char* name, const Get& get) const {
         arrays.add<std::int64_t>(name, list.contacts.size() + lines(), [&](const auto& put) {
             for (const KeptContact& kept : list.contacts) {

@@ -14,24 +14,33 @@ namespace voxtact::app {
 
 namespace {
 
-/// Fractions of a millimetre or its square; more digits have no meaning.
+/// Steps per mm or mm^2 in files; more digits have no meaning.
 constexpr double kPrintedParts = 1e6;
 
 std::string rounded(double value) {
     return number(std::round(value * kPrintedParts) / kPrintedParts + 0.0);
 }
 
-std::string joined(const Vec3& vector, char between) {
-    return rounded(vector[0]) + between + rounded(vector[1]) + between + rounded(vector[2]);
+/// The coordinates of a point of a row.
+std::string joined(const Measured& row, const char* column, char between) {
+    const auto at = [&](std::size_t axis) { return rounded(row.table->number(column, row.row, axis)); };
+    return at(0) + between + at(1) + between + at(2);
 }
 
-/// Parts of a mm^2: more digits say nothing.
-double areaParts(double tolerance) {
+/// Steps per unit in files; more digits have no meaning.
+double partsOf(const PairOptions& options) {
+    const double tolerance = options.measure.settings.number("tolerance");
     return std::max(kPrintedParts, std::pow(10, std::ceil(2 - std::log10(tolerance))));
 }
 
-std::int32_t labelOf(const PairInputs& inputs, const Vec3& world) {
-    return inputs.labels ? inputs.labels->values[labelAt(*inputs.labels, world)] : 0;
+/// The label at the witness point in the volume.
+std::int32_t labelOf(const PairInputs& inputs, const Measured& row) {
+    const auto at = [&](std::size_t axis) { return row.table->number("in_volume", row.row, axis); };
+    return inputs.labels ? inputs.labels->values[labelAt(*inputs.labels, {at(0), at(1), at(2)})] : 0;
+}
+
+std::uint32_t triangleOf(const Measured& row) {
+    return static_cast<std::uint32_t>(row.table->number("triangle", row.row));
 }
 
 void writePly(std::ostream& out, const PairOptions& options, const PairInputs& inputs,
@@ -53,13 +62,14 @@ void writePly(std::ostream& out, const PairOptions& options, const PairInputs& i
         << "\nproperty int vertex1\nproperty int vertex2\nproperty double distance\nproperty uint pose\n"
            "property uint mesh\nproperty uint volume\nproperty uint triangle\nproperty int label\nend_header\n";
     for (const KeptClosest& entry : kept) {
-        out << joined(entry.closest.mesh, ' ') << " 0\n" << joined(entry.closest.volume, ' ') << " 1\n";
+        out << joined(entry.measured, "on_mesh", ' ') << " 0\n" << joined(entry.measured, "in_volume", ' ') << " 1\n";
     }
     for (std::size_t i = 0; i < kept.size(); ++i) {
         const KeptClosest& entry = kept[i];
         const Job& job = jobs.jobs[entry.job];
-        out << 2 * i << ' ' << 2 * i + 1 << ' ' << rounded(entry.upper) << ' ' << entry.pose << ' ' << job.mesh << ' '
-            << job.volume << ' ' << entry.closest.triangle << ' ' << labelOf(inputs, entry.closest.volume) << '\n';
+        out << 2 * i << ' ' << 2 * i + 1 << ' ' << rounded(entry.measured.table->number("upper", entry.measured.row))
+            << ' ' << entry.pose << ' ' << job.mesh << ' ' << job.volume << ' ' << triangleOf(entry.measured) << ' '
+            << labelOf(inputs, entry.measured) << '\n';
     }
 }
 
@@ -74,36 +84,41 @@ void writeCsv(std::ostream& out, const PairOptions& options, const PairInputs& i
     }
     for (const KeptClosest& entry : kept) {
         const Job& job = jobs.jobs[entry.job];
-        const WitnessPoints& closest = entry.closest;
-        const std::int32_t label = labelOf(inputs, closest.volume);
+        const Measured& row = entry.measured;
+        const std::int32_t label = labelOf(inputs, row);
         out << entry.pose << ',' << io::csvField(jobs.meshes[job.mesh]) << ',' << io::csvField(jobs.volumes[job.volume])
-            << ',' << (closest.triangle == kInsideMesh ? "" : std::to_string(closest.triangle)) << ','
-            << joined(closest.mesh, ',') << ',' << joined(closest.volume, ',') << ',' << label << ','
-            << joined(closest.perTranslation, ',') << ',' << joined(closest.perRotation, ',')
+            << ',' << (triangleOf(row) == kInsideMesh ? "" : std::to_string(triangleOf(row))) << ','
+            << joined(row, "on_mesh", ',') << ',' << joined(row, "in_volume", ',') << ',' << label << ','
+            << joined(row, "per_translation", ',') << ',' << joined(row, "per_rotation", ',')
             << (named ? ',' + io::csvField(labelName(inputs, label)) : "") << '\n';
     }
 }
 
 } // namespace
 
-Bounds roundedOutward(const Bounds& bounds) {
-    return {lowerRounded(bounds.lower, kPrintedParts), upperRounded(bounds.upper, kPrintedParts)};
+bool hasWitness(const NamedQuestion& question) noexcept {
+    const TableLayout* const pairs = question.table("pairs");
+    return pairs != nullptr && std::ranges::any_of(pairs->columns, [](const Column& column) {
+               return std::string_view(column.name) == "in_volume";
+           });
 }
 
-Bounds roundedOutward(const Bounds& bounds, double tolerance) {
-    const double parts = areaParts(tolerance);
+Bounds roundedOutward(const Bounds& bounds, const PairOptions& options) {
+    const double parts = partsOf(options);
     return {lowerRounded(bounds.lower, parts), upperRounded(bounds.upper, parts)};
 }
 
-void writeTriangleArea(std::ostream& out, const PairOptions& options, const Row& row, const TriangleArea& area) {
-    const double tolerance = options.measure.tolerance;
-    const double parts = areaParts(tolerance);
+void writeTriangle(std::ostream& out, const PairOptions& options, const Row& row, const AnswerTable& triangles,
+                   std::size_t number) {
     const PairJobs& jobs = options.jobs;
     const Job& job = jobs.jobs[row.job];
-    const Bounds bounds = roundedOutward(area.bounds, tolerance);
+    const double parts = partsOf(options);
+    const Bounds bounds =
+        roundedOutward({triangles.number("lower", number), triangles.number("upper", number)}, options);
     out << row.pose << ',' << io::csvField(jobs.meshes[job.mesh]) << ',' << io::csvField(jobs.volumes[job.volume])
-        << ',' << area.triangle << ',' << number(std::round(area.whole * parts) / parts) << ',' << number(bounds.lower)
-        << ',' << number(bounds.upper) << '\n';
+        << ',' << triangles.number("triangle", number) << ','
+        << voxtact::number(std::round(triangles.number("whole", number) * parts) / parts) << ','
+        << voxtact::number(bounds.lower) << ',' << voxtact::number(bounds.upper) << '\n';
 }
 
 bool isWitnessEnding(const std::filesystem::path& path) {

@@ -12,7 +12,7 @@ namespace voxtact::app {
 
 namespace {
 
-/// A nanometre: more digits say nothing.
+/// Steps per mm: more digits than a nanometre have no meaning.
 constexpr double kMillionths = 1e6;
 
 std::string inMillionths(double value) {
@@ -23,7 +23,7 @@ std::string inMillionths(const Vec3& vector) {
     return inMillionths(vector[0]) + ',' + inMillionths(vector[1]) + ',' + inMillionths(vector[2]);
 }
 
-/// ",mesh,volume" of a row, where the pose alone does not identify it.
+/// Returns ",MESH,VOLUME" of a row if the pose alone does not identify it.
 std::string sourcesOf(const PairOptions& options, std::uint32_t job) {
     const PairJobs& jobs = options.jobs;
     const Job& which = jobs.jobs[job];
@@ -66,18 +66,13 @@ const ContactFormat* formatOf(const std::filesystem::path& path) {
 } // namespace
 
 SideFile sideFile(const PairOptions& options) {
-    switch (options.question) {
-    case Question::Count:
+    if (options.isCount()) {
         return {"--triangles", options.extra.triangles, writeTriangleHeader};
-    case Question::Distance:
-        return {"--witness", options.measure.witness, nullptr, true};
-    case Question::Area:
-        return {"--triangles", options.measure.triangles, writeTriangleAreaHeader};
-    case Question::Touch:
-    case Question::Overlap:
-        break;
     }
-    return {};
+    if (hasWitness(options.question)) {
+        return {"--witness", options.measure.witness, nullptr, true};
+    }
+    return {"--triangles", options.measure.triangles, writeTriangleAreaHeader};
 }
 
 void writeTriangle(std::ostream& out, const PairOptions& options, const Row& row, const TouchedTriangle& touched) {

@@ -8,13 +8,13 @@
 #include <span>
 #include <string>
 
-/// The files of the subcommands about pairs, other than their table.
+/// Files of the pair subcommands in addition to the table.
 namespace voxtact::app {
 
-/// The file of rows in addition to the table of a question: count --triangles, distance --witness, area --triangles.
+/// An additional file of rows: count --triangles, distance --witness, area --triangles.
 struct SideFile {
     const char* option = "";
-    std::filesystem::path path; ///< empty: not asked for
+    std::filesystem::path path; ///< empty: not requested
     void (*header)(std::ostream& out, const PairOptions& options, const PairInputs& inputs) = nullptr;
     bool comesLast = false; ///< written once all rows are known
 };
@@ -23,31 +23,32 @@ struct SideFile {
 /// pose,triangle,count; with several meshes or volumes also mesh,volume.
 void writeTriangle(std::ostream& out, const PairOptions& options, const Row& row, const TouchedTriangle& touched);
 
-/// Inputs of a file of contacts; `bounds` with --bounds only.
+/// Contents of a file of contacts; `bounds` only with --bounds.
 struct ContactList {
     std::span<const KeptContact> contacts;
     std::span<const KeptBounds> bounds;
 };
 
-/// The endings of a file of contacts, as a message names them.
+/// Returns the endings of contact files for a message: ".csv, .ply or ...".
 [[nodiscard]] std::string contactEndings();
 [[nodiscard]] bool isContactEnding(const std::filesystem::path& path);
 /// Returns true for .csv and .ply.
 [[nodiscard]] bool isWitnessEnding(const std::filesystem::path& path);
-/// Writes witness points, in the format of the ending of --witness. CSV:
+/// Writes witness points in the format that the ending of --witness selects. CSV:
 /// pose,mesh,volume,triangle,mesh_x,...,volume_z,label, then the gradient of the distance, per_x,...,per_rz; with names
 /// of labels also label_name. PLY, ASCII: two vertices per pair, on the mesh and in the volume, and an edge between
 /// them. World mm.
 void writeWitnesses(std::ostream& out, const PairOptions& options, const PairInputs& inputs,
                     std::span<const KeptClosest> kept);
-/// pose,mesh,volume,triangle,triangle_area,lower,upper.
-void writeTriangleArea(std::ostream& out, const PairOptions& options, const Row& row, const TriangleArea& area);
-/// Rounds outward to a millionth of a mm.
-[[nodiscard]] Bounds roundedOutward(const Bounds& bounds);
-/// Rounds outward to a millionth of a mm^2, or to a hundredth of a small tolerance.
-[[nodiscard]] Bounds roundedOutward(const Bounds& bounds, double tolerance);
+/// pose,mesh,volume,triangle,triangle_area,lower,upper: a row of the table "triangles" of a question that measures.
+void writeTriangle(std::ostream& out, const PairOptions& options, const Row& row, const AnswerTable& triangles,
+                   std::size_t number);
+/// Returns true if the answers of a question have witness points.
+[[nodiscard]] bool hasWitness(const NamedQuestion& question) noexcept;
+/// Rounds outward to a millionth of a unit, or to a hundredth of a small tolerance.
+[[nodiscard]] Bounds roundedOutward(const Bounds& bounds, const PairOptions& options);
 
-/// Writes contacts, in the format of the ending of --contacts.
+/// Writes contacts in the format that the ending of --contacts selects.
 void writeContacts(std::ostream& out, const PairOptions& options, const PairInputs& inputs, const ContactList& list);
 
 /// pose,triangle,x,y,z,nx,ny,nz,depth,value,opacity,label; with names of labels also label_name, with several

@@ -18,9 +18,9 @@ namespace {
 constexpr const char* kInfoFooter =
     R"(Volumes: size, spacing, orientation, world box (mm, LPS), values, histogram,
 opaque share. Meshes: triangles, vertices, parts, box, closed or not, and a
-unit that looks wrong. Each mesh with each volume: how much of its box is
-inside, the distance of the boxes, and the option that would bring it there.
-The ending tells the kind; folders are DICOM series.
+suspicious unit. Each mesh against each volume: the share of its box inside, the
+distance between the boxes, and an option that would move the mesh inside.
+The file ending determines the kind; folders are DICOM series.
 
 Examples:
   voxtact info head.nii.gz tool.stl
@@ -28,7 +28,7 @@ Examples:
   voxtact info builtin:head:128 builtin:scalpel --format json)";
 
 struct InfoOptions {
-    std::vector<std::string> paths; ///< of either kind
+    std::vector<std::string> paths; ///< of volumes and meshes
     std::vector<std::string> volumes;
     MeshOptions meshes;
     TransferFunctionOptions transferFunction;
@@ -90,13 +90,13 @@ Result<void> checkPaths(const InfoOptions& options) {
     const std::vector<NamedPath> named = inputPaths(options.volumes, options.meshes);
     inputs.insert(inputs.end(), named.begin(), named.end());
     if (options.paths.empty() && options.volumes.empty() && options.meshes.sources.empty()) {
-        return badArgument("PATH: a volume or mesh is needed; see voxtact info --help");
+        return badArgument("PATH: name a volume or mesh; see voxtact info --help");
     }
     addInput(inputs, "--transfer-function", options.transferFunction.path);
     return checkOutputs({{"--output", options.output.path}}, inputs);
 }
 
-/// How each mesh lies to each volume.
+/// Returns the placement of each mesh relative to each volume.
 std::vector<PathInfo> pairsOf(const InfoOptions& options, const std::vector<PathInfo>& paths) {
     const Mat4 pose = identity();
     std::vector<PathInfo> pairs;
@@ -151,8 +151,7 @@ Command addInfo(CLI::App& program) {
     auto options = std::make_shared<InfoOptions>();
     CLI::App* parser = program.add_subcommand("info", "describe volume and mesh files");
     parser->footer(kInfoFooter);
-    parser->add_option("PATH", options->paths, "volumes and meshes, as --volume and --mesh take them")
-        ->type_name("...");
+    parser->add_option("PATH", options->paths, "volumes and meshes, as for --volume and --mesh")->type_name("...");
     addVolumeOption(*parser, options->volumes);
     addResampleOption(*parser, options->resample);
     parser->get_option("--volume")->required(false);

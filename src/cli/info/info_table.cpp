@@ -121,7 +121,7 @@ std::string vectorText(const Vec3& vector, const char* between) {
     return number(rounded(vector[0])) + between + number(rounded(vector[1])) + between + number(rounded(vector[2]));
 }
 
-/// "1.2 %", and never 0 or 100 where that is not so.
+/// "1.2 %"; never rounds to 0 or 100.
 std::string percentText(double share) {
     char text[32];
     const double value = share * 100;
@@ -136,16 +136,16 @@ std::string boxText(const Box& box) {
 
 void writeHistogram(std::ostream& out, const std::vector<HistogramBin>& bins) {
     constexpr double kWidth = 40;
-    std::uint64_t most = 1;
+    std::uint64_t max = 1;
     std::size_t widest = 0;
     for (const HistogramBin& bin : bins) {
-        most = std::max(most, bin.voxels);
+        max = std::max(max, bin.voxels);
         widest = std::max(widest, rangeText(bin).size());
     }
     for (const HistogramBin& bin : bins) {
         const std::string range = rangeText(bin);
-        // Most voxels are air: by the square root the others can be seen, too.
-        const double share = std::sqrt(static_cast<double>(bin.voxels) / static_cast<double>(most));
+        // Most voxels are air: the square root keeps the other bars visible.
+        const double share = std::sqrt(static_cast<double>(bin.voxels) / static_cast<double>(max));
         const auto length = static_cast<std::size_t>(std::ceil(share * kWidth));
         out << "    " << std::string(widest - range.size(), ' ') << range << " |" << std::string(length, '#') << ' '
             << withCommas(bin.voxels) << '\n';
@@ -157,7 +157,7 @@ void writeVolume(std::ostream& out, const VolumeInfo& volume, double threshold) 
     out << "  volume       " << size[0] << " x " << size[1] << " x " << size[2] << " voxels, " << toString(volume.type)
         << '\n'
         << "  spacing      " << vectorText(volume.grid.spacing, " x ") << " mm\n"
-        << "  orientation  " << volume.towards << " (index x, y, z run towards them)";
+        << "  orientation  " << volume.towards << " (directions of index x, y, z)";
     if (volume.oblique > 0) {
         char text[32];
         std::snprintf(text, sizeof text, "%.1f", volume.oblique);
@@ -167,7 +167,7 @@ void writeVolume(std::ostream& out, const VolumeInfo& volume, double threshold) 
         << "  values       " << number(volume.values.lo) << " to " << number(volume.values.hi) << ", mean "
         << number(rounded(volume.mean)) << '\n'
         << "  opaque       " << percentText(volume.opaque) << " of the voxels reach the opacity " << number(threshold)
-        << "\n  histogram    voxels, bars by the square root\n";
+        << "\n  histogram    voxels per bin; bar lengths: square roots\n";
     writeHistogram(out, volume.histogram);
 }
 
@@ -184,8 +184,7 @@ void writeMesh(std::ostream& out, const MeshInfo& mesh) {
             << " of more than two\n";
     }
     if (edges.turned > 0) {
-        out << "  turned       " << withCommas(edges.turned)
-            << " edges between triangles that go round in different senses\n";
+        out << "  turned       " << withCommas(edges.turned) << " edges between triangles of opposite winding\n";
     }
     if (!mesh.hint.empty()) {
         out << "  unit         " << mesh.hint << '\n';

@@ -16,7 +16,7 @@ namespace voxtact::app {
 struct MeshInfo {
     MeshFacts facts;
     Closedness closedness;
-    std::string hint; ///< what strikes in its size; empty: nothing
+    std::string hint; ///< note on an implausible size; empty: none
 };
 
 /// Placement of a mesh relative to a volume.
@@ -26,7 +26,7 @@ struct PairInfo {
     std::vector<OtherReading> others; ///< the best first
 };
 
-/// Contents of a path, a volume or a mesh, or the placement of the mesh relative to a volume.
+/// Facts of a volume or mesh file, or the placement of a mesh relative to a volume.
 struct PathInfo {
     std::string path;
     std::optional<VolumeInfo> volume;
@@ -34,7 +34,7 @@ struct PathInfo {
     std::optional<PairInfo> pair;
 };
 
-/// A row a path or pair; columns that are about the other kinds are empty.
+/// Returns one row per path or pair; columns of other kinds are empty.
 [[nodiscard]] io::Table infoTable(const std::vector<PathInfo>& paths);
 /// Writes text: one block per path, with the histogram as bars.
 void writeInfoText(std::ostream& out, const std::vector<PathInfo>& paths, double threshold);

@@ -9,7 +9,7 @@ namespace voxtact::app {
 
 namespace {
 
-/// The vertices of an edge, the lower number first, and whether its triangle goes from that one to the other.
+/// Vertices of an edge, the lower index first, and whether the triangle goes from the lower to the higher.
 struct Edge {
     std::uint32_t low;
     std::uint32_t high;
@@ -25,7 +25,7 @@ std::vector<Edge> edgesOf(const MeshView& mesh) {
         for (std::size_t side = 0; side < 3; ++side) {
             const std::uint32_t from = mesh.indices[first + side];
             const std::uint32_t to = mesh.indices[first + (side + 1) % 3];
-            // A triangle that has a vertex twice has an edge of no length there, and a pair of the same one.
+            // A triangle with a repeated vertex has an edge of length 0, and two equal edges.
             if (from != to) {
                 edges.push_back({std::min(from, to), std::max(from, to), from < to});
             }
@@ -63,18 +63,18 @@ std::uint32_t partsOf(const MeshView& mesh) {
 } // namespace
 
 Closedness closednessOf(const MeshView& mesh) {
-    Closedness found;
+    Closedness result;
     const std::vector<Edge> edges = edgesOf(mesh);
     for (auto begin = edges.begin(); begin != edges.end();) {
         const auto end = std::find_if_not(begin, edges.end(), [&](const Edge& edge) { return edge.between(*begin); });
         const auto uses = end - begin;
-        found.open += uses == 1 ? 1 : 0;
-        found.many += uses > 2 ? 1 : 0;
-        found.turned += uses == 2 && begin->upwards == (begin + 1)->upwards ? 1 : 0;
+        result.open += uses == 1 ? 1 : 0;
+        result.many += uses > 2 ? 1 : 0;
+        result.turned += uses == 2 && begin->upwards == (begin + 1)->upwards ? 1 : 0;
         begin = end;
     }
-    found.parts = partsOf(mesh);
-    return found;
+    result.parts = partsOf(mesh);
+    return result;
 }
 
 } // namespace voxtact::app

@@ -23,14 +23,14 @@ std::array<std::size_t, 3> worldAxes(const Grid& grid) {
     std::array<bool, 3> indexDone{};
     std::array<bool, 3> worldDone{};
     for (int round = 0; round < 3; ++round) {
-        double most = -1;
+        double max = -1;
         std::size_t index = 0;
         std::size_t world = 0;
         for (std::size_t i = 0; i < 3; ++i) {
             for (std::size_t w = 0; w < 3; ++w) {
                 const double size = std::abs(grid.direction[3 * i + w]);
-                if (!indexDone[i] && !worldDone[w] && size > most) {
-                    most = size;
+                if (!indexDone[i] && !worldDone[w] && size > max) {
+                    max = size;
                     index = i;
                     world = w;
                 }
@@ -45,17 +45,17 @@ std::array<std::size_t, 3> worldAxes(const Grid& grid) {
 
 double obliqueness(const Grid& grid) {
     const std::array<std::size_t, 3> along = worldAxes(grid);
-    double most = 0;
+    double max = 0;
     for (std::size_t i = 0; i < 3; ++i) {
         const double cosine = std::min(std::abs(grid.direction[3 * i + along[i]]), 1.0);
-        most = std::max(most, std::acos(cosine) * 180 / std::numbers::pi);
+        max = std::max(max, std::acos(cosine) * 180 / std::numbers::pi);
     }
-    // Degrees below the rounding of float headers.
+    // Degrees: smaller angles come from the rounding of float headers.
     constexpr double kNothing = 0.05;
-    return most < kNothing ? 0 : most;
+    return max < kNothing ? 0 : max;
 }
 
-/// Parts of the range; whole numbers fall into parts of whole numbers.
+/// Divides the range into bins; bins of integers begin at integers.
 class Bins {
   public:
     Bins(ValueRange values, bool whole)
@@ -88,7 +88,7 @@ class Bins {
 } // namespace
 
 std::string orientationLetters(const Grid& grid) {
-    constexpr std::array<const char*, 3> kSides{"RL", "AP", "IS"}; // towards less, and more, of world x, y, z
+    constexpr std::array<const char*, 3> kSides{"RL", "AP", "IS"}; // towards smaller and larger world x, y, z
     const std::array<std::size_t, 3> along = worldAxes(grid);
     std::string letters;
     for (std::size_t i = 0; i < 3; ++i) {

@@ -10,7 +10,7 @@
 namespace voxtact::app {
 
 struct HistogramBin {
-    double lo = 0; ///< of integers, the smallest and largest value that falls in it
+    double lo = 0; ///< integers: the smallest and largest value in the bin
     double hi = 0;
     std::uint64_t voxels = 0;
 };
@@ -19,18 +19,18 @@ struct HistogramBin {
 struct VolumeInfo {
     Grid grid;
     ScalarType type = ScalarType::UInt8;
-    std::string towards; ///< where index x, y and z run: "RAS"
-    double oblique = 0;  ///< degrees between an index axis and the world axis that it runs along, at most
+    std::string towards; ///< directions of index x, y and z: "RAS"
+    double oblique = 0;  ///< maximum angle between an index axis and its world axis, degrees
     Box world;           ///< mm, LPS
     ValueRange values;
     double mean = 0;
-    std::vector<HistogramBin> histogram; ///< equal parts of the range; one where all voxels are alike
+    std::vector<HistogramBin> histogram; ///< equal bins of the range; one if all voxels are equal
     bool isResampled = false;            ///< by --resample
     double opaque = 0;                   ///< share of the voxels whose opacity reaches the threshold, 0 to 1
 };
 
-/// Letters of the patient's sides (R or L, A or P, S or I) towards which the index axes run, each world axis once: the
-/// nearest, as nibabel's aff2axcodes says.
+/// Returns the side of the patient (R or L, A or P, S or I) that each index axis points to, each world axis once, like
+/// nibabel's aff2axcodes.
 [[nodiscard]] std::string orientationLetters(const Grid& grid);
 
 /// Expects a volume that checkVolume() accepts, with `values` for its range, and an `opacity` that sampleTable() does.

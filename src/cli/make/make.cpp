@@ -23,12 +23,12 @@ namespace voxtact::app {
 
 namespace {
 
-constexpr const char* kMeshFooter = R"(The ending says the format: .stl (binary), .obj, .ply (binary).
+constexpr const char* kMeshFooter = R"(The file ending selects the format: .stl (binary), .obj, .ply (binary).
 
 Example:
   voxtact make mesh builtin:scalpel:3068 scalpel.stl)";
 
-constexpr const char* kVolumeFooter = R"(The ending says the format: .nii, .nii.gz, .nrrd, .mha.
+constexpr const char* kVolumeFooter = R"(The file ending selects the format: .nii, .nii.gz, .nrrd, .mha.
 
 Example:
   voxtact make volume builtin:head:128 head.nii.gz)";
@@ -64,7 +64,7 @@ template <class Write> Outcome written(const Write& write) {
     return result.ok() ? Outcome() : interrupted() ? interruptOutcome("nothing is written") : Outcome(result.error());
 }
 
-/// Takes no more once the user interrupts: what writes to it then ends soon.
+/// Fails after an interrupt, so that its writer stops soon.
 class EndingBuffer : public std::streambuf {
   public:
     explicit EndingBuffer(std::ostream& out) : out_(out) {}
@@ -99,7 +99,7 @@ Result<void> writeVolume(const std::filesystem::path& path, const VolumeView& vo
 
 constexpr std::string_view kBuiltin = "builtin:";
 
-/// Why a source is not one of ours.
+/// Returns the error for a source that is not a builtin.
 Result<void> requireBuiltin(const std::string& source) {
     if (!source.starts_with(kBuiltin)) {
         return badArgument("'" + source + "' is not builtin:NAME[:SIZE]");
@@ -148,7 +148,7 @@ void writePose(std::ostream& out, const Mat4& pose) {
 
 Outcome makePoses(const MakePosesOptions& options) {
     if (options.volumes.size() != 1 || options.meshes.sources.size() != 1) {
-        return badArgument("one --volume and one --mesh are needed, not several");
+        return badArgument("--volume, --mesh: give each once");
     }
     if (const Result<void> writable =
             checkOutputs({{"--output", options.path}}, inputPaths(options.volumes, options.meshes));

@@ -22,18 +22,18 @@ constexpr double kMargin = 0.1; ///< of the box's side
 constexpr std::uint64_t kTries = 100;
 /// Precision of the onset, in voxels.
 constexpr double kOnsetError = 1.0 / 64;
-/// Length of a stroke: voxels outside the onset.
+/// Start of a stroke: voxels outside the onset.
 constexpr double kOutside = 10;
 constexpr double kInside = 2;
-/// Ticks in, as many out, and then on to the next one's begin.
+/// Ticks inwards and outwards; the rest moves to the next stroke.
 constexpr std::uint32_t kTicksIn = 125;
 
-/// The generator is fixed by the standard; std::uniform_real_distribution is not.
+/// The standard specifies the generator exactly, but not std::uniform_real_distribution.
 class Random {
   public:
     explicit Random(std::uint64_t seed) : engine_(seed) {}
 
-    /// [0, 1), 53 bits.
+    /// Returns a number in [0, 1) with 53 random bits.
     double unit() { return static_cast<double>(engine_() >> 11) * 0x1.0p-53; }
     double between(double lo, double hi) { return lo + (hi - lo) * unit(); }
     std::size_t below(std::size_t end) { return static_cast<std::size_t>(unit() * static_cast<double>(end)); }
@@ -42,7 +42,7 @@ class Random {
     std::mt19937_64 engine_;
 };
 
-/// Excludes the origin.
+/// Returns a random point of the unit disc, other than the origin.
 glm::dvec2 inUnitDisc(Random& random) {
     glm::dvec2 point;
     do {
@@ -52,7 +52,8 @@ glm::dvec2 inUnitDisc(Random& random) {
     return point;
 }
 
-/// Uniform over all rotations (Marsaglia 1972). Square roots only: sine and cosine differ from library to library.
+/// Returns a uniformly random rotation (Marsaglia 1972). Uses only square roots: sine and cosine differ between
+/// libraries.
 Mat4 randomRotation(Random& random) {
     const glm::dvec2 a = inUnitDisc(random);
     const glm::dvec2 b = inUnitDisc(random);
@@ -63,7 +64,7 @@ Mat4 randomRotation(Random& random) {
     return rotation;
 }
 
-/// A random rotation, and a random vertex of the mesh at a random point of the volume's box made larger by `margin`.
+/// Returns a random rotation that puts a random vertex at a random point of the box, enlarged by `margin`.
 Mat4 randomPose(const Mat4& world_from_texture, const MeshView& mesh, double margin, Random& random) {
     Mat4 world_from_object = randomRotation(random);
     const std::size_t vertex = random.below(mesh.positions.size() / 3) * 3;
@@ -96,24 +97,24 @@ double farthest(const Grid& grid, const MeshView& mesh) {
         lo[i % 3] = std::min(lo[i % 3], mesh.positions[i]);
         hi[i % 3] = std::max(hi[i % 3], mesh.positions[i]);
     }
-    double sides = 0; // no diagonal of the volume is longer, sheared or not
+    double sides = 0; // an upper bound of all diagonals, also of sheared volumes
     for (std::size_t axis = 0; axis < 3; ++axis) {
         sides += grid.size[axis] * grid.spacing[axis];
     }
     return std::hypot(hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]) + sides;
 }
 
-/// Unit vector from one point to another; up where they are the same.
+/// Returns the unit vector from one point to another; up if they are equal.
 Vec3 directionTo(const Vec3& from, const Vec3& to) {
-    Vec3 way{to[0] - from[0], to[1] - from[1], to[2] - from[2]};
-    const double length = std::hypot(way[0], way[1], way[2]);
+    Vec3 direction{to[0] - from[0], to[1] - from[1], to[2] - from[2]};
+    const double length = std::hypot(direction[0], direction[1], direction[2]);
     if (length == 0) {
         return {0, 0, 1};
     }
-    for (double& coordinate : way) {
+    for (double& coordinate : direction) {
         coordinate /= length;
     }
-    return way;
+    return direction;
 }
 
 } // namespace
@@ -148,7 +149,7 @@ Result<std::vector<Mat4>> onsetPoses(const Grid& grid, const MeshView& mesh, std
                                      const std::function<Result<bool>(const Mat4&)>& touches) {
     const Mat4 world_from_texture = worldFromTexture(grid);
     const double voxel = *std::ranges::min_element(grid.spacing);
-    const double most = farthest(grid, mesh);
+    const double maxDistance = farthest(grid, mesh);
     Random random(seed);
     std::vector<Mat4> poses;
     for (std::uint64_t tries = 0; poses.size() < count; ++tries) {
@@ -159,7 +160,7 @@ Result<std::vector<Mat4>> onsetPoses(const Grid& grid, const MeshView& mesh, std
         const Mat4 start = randomPose(world_from_texture, mesh, 0, random);
         const Vec3 direction = transformPoint(randomRotation(random), {0, 0, 1});
         double inside = 0;
-        double outside = most;
+        double outside = maxDistance;
         const Result<bool> begins = touches(start);
         VOXTACT_TRY(begins);
         while (*begins && outside - inside > voxel * kOnsetError) {
@@ -200,10 +201,10 @@ Result<std::vector<Mat4>> movingPoses(const Grid& grid, const MeshView& mesh, st
         const std::size_t stroke = i / kTicksPerStroke;
         const std::uint32_t tick = i % kTicksPerStroke;
         const Mat4 stops[] = {outside[stroke], inside[stroke], outside[stroke], outside[(stroke + 1) % strokes]};
-        const std::size_t way = std::min(tick / kTicksIn, 2U);
-        const std::uint32_t ticks = way < 2 ? kTicksIn : kTicksPerStroke - 2 * kTicksIn;
-        const double part = (tick - static_cast<double>(way) * kTicksIn) / ticks;
-        const Result<Mat4> pose = poseBetween(stops[way], stops[way + 1], part, Interpolation::Slerp, centre);
+        const std::size_t leg = std::min(tick / kTicksIn, 2U);
+        const std::uint32_t ticks = leg < 2 ? kTicksIn : kTicksPerStroke - 2 * kTicksIn;
+        const double part = (tick - static_cast<double>(leg) * kTicksIn) / ticks;
+        const Result<Mat4> pose = poseBetween(stops[leg], stops[leg + 1], part, Interpolation::Slerp, centre);
         VOXTACT_TRY(pose);
         poses.push_back(*pose);
     }

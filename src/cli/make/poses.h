@@ -9,39 +9,38 @@
 
 namespace voxtact {
 
-/// Poses of a measurement, at most: all are held at once.
+/// Maximum poses of a measurement: all are in memory at once.
 inline constexpr std::uint32_t kMostPoses = 10'000'000;
 
-/// `count` rigid poses: a random rotation, and a random vertex of the mesh at a random point of the volume's box made
-/// larger by a tenth on each side. The same arguments give the same poses, bit for bit, on every machine with IEEE
-/// arithmetic. The mesh must have a vertex and the grid must be one that checkGrid() accepts.
+/// Returns `count` rigid poses: random rotations that put a random vertex of the mesh at a random point of the volume's
+/// box, enlarged by a tenth on each side. Equal arguments give equal poses, bit for bit, on every machine with IEEE
+/// arithmetic. The mesh must have a vertex, and checkGrid() must accept the grid.
 [[nodiscard]] std::vector<Mat4> randomPoses(const Grid& grid, const MeshView& mesh, std::uint32_t count,
                                             std::uint64_t seed);
-/// Calls `take` for the same poses, one after the other, without storing them. Ends if `take` returns false.
+/// Calls `take` with each pose of randomPoses(), without storing them. Stops when `take` returns false.
 void forRandomPoses(const Grid& grid, const MeshView& mesh, std::uint64_t count, std::uint64_t seed,
                     const std::function<bool(const Mat4&)>& take);
 
-/// Rounds the elements of poses to floats, so that all engines get the poses of an engine with poses on the device.
+/// Rounds the elements of poses to float, so that all engines get the poses that a device stores.
 [[nodiscard]] std::vector<Mat4> asFloats(std::vector<Mat4> poses);
 
 /// Range around the onset of contact, in voxels (the smallest spacing).
 inline constexpr double kOnsetInside = 0.75;
 inline constexpr double kOnsetOutside = 0.25;
 
-/// `count` rigid poses around the onset of contact: a pose as above that touches is moved in a random direction until
-/// it no longer does (bisected), and from there by a uniformly random length, kOnsetInside back to kOnsetOutside on.
-/// `touches` says whether a pose does. InvalidArgument where too few do to begin with.
+/// Returns `count` rigid poses around the onset of contact. Moves a touching pose of randomPoses() in a random
+/// direction to the onset (bisection), then by a uniformly random length from kOnsetInside back to kOnsetOutside on.
+/// `touches` returns true if a pose touches. InvalidArgument if too few random poses touch.
 [[nodiscard]] Result<std::vector<Mat4>> onsetPoses(const Grid& grid, const MeshView& mesh, std::uint32_t count,
                                                    std::uint64_t seed,
                                                    const std::function<Result<bool>(const Mat4&)>& touches);
 
-/// Poses of a stroke of movingPoses().
+/// Number of poses per stroke of movingPoses().
 inline constexpr std::uint32_t kTicksPerStroke = 500;
 
-/// `count` rigid poses, a tick each, of an instrument that a hand moves: strokes one after the other, each from 10
-/// voxels (the smallest spacing) outside of a pose around the onset of contact to 2 voxels inside, back, and on to
-/// where the next begins. Outside is away from the middle of the volume. The poses around the onset are those of
-/// onsetPoses(), and it refuses what they refuse.
+/// Returns `count` rigid poses, one per tick, of a hand-held instrument. Each stroke goes from 10 voxels (the smallest
+/// spacing) outside a pose of onsetPoses() to 2 voxels inside, back, and to the start of the next stroke. Outside is
+/// away from the middle of the volume. Fails like onsetPoses().
 [[nodiscard]] Result<std::vector<Mat4>> movingPoses(const Grid& grid, const MeshView& mesh, std::uint32_t count,
                                                     std::uint64_t seed,
                                                     const std::function<Result<bool>(const Mat4&)>& touches);

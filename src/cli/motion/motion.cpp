@@ -22,21 +22,7 @@ namespace voxtact::app {
 
 namespace {
 
-constexpr const char* kMotionFooter =
-    R"(Each row is the rigid motion between two consecutive poses:
-  pose,mesh,volume       number of the first pose, from 0
-  touch                  0 no, 1 yes: both proven; 2 undecided
-  toi_lower,toi_upper    time of impact, 0 at the first pose, 1 at the next:
-                         collision-free up to toi_lower, a touch at toi_upper
-  x,y,z,triangle,label   witness point of that touch in mm
-
-Nothing is sampled: a thin plate that crosses a thin sheet is found.
-
-Examples:
-  voxtact motion --volume head.nii.gz --mesh tool.stl --poses path.txt --iso 40
-  voxtact motion --volume ct.nrrd --mesh drill.stl --poses path.txt --summary)";
-
-/// Radians, 0.0001 degrees: poses that a file has with six decimals may be this far from half a turn.
+/// Radians, 0.0001 degrees: the error of half a turn whose pose has six decimals in a file.
 constexpr double kHalfTurnRounding = 1e-4 / 180 * std::numbers::pi;
 
 Interpolation interpolationOf(const MotionOptions& options) {
@@ -56,7 +42,7 @@ Result<void> readPoses(const MotionOptions& options, MotionInputs& inputs) {
     return inputs.poses.size() >= 2
                ? Result<void>()
                : badArgument("--poses: '" + options.view.poses.string() + "' has " +
-                             std::to_string(inputs.poses.size()) + " poses, a motion needs two or more");
+                             std::to_string(inputs.poses.size()) + " poses; a motion needs at least two");
 }
 
 Result<void> readLabels(const MotionOptions& options, MotionInputs& inputs) {
@@ -84,12 +70,12 @@ Result<MotionInputs> readInputs(const MotionOptions& options) {
     return inputs;
 }
 
-/// The number of the first row of the shard, and of the first one behind it.
+/// Returns the first row of the shard and the end of its rows.
 std::pair<std::uint64_t, std::uint64_t> rowRange(const MotionOptions& options, const MotionInputs& inputs) {
     return options.shard.range((inputs.poses.size() - 1) * options.meshes.sources.size() * options.volumes.size());
 }
 
-/// The rows of the shard by volume, mesh and segment, until all are done or interrupted.
+/// Visits the rows of the shard by volume, mesh and segment, until all are done or the user interrupts.
 Result<void> checkAll(const MotionOptions& options, const MotionInputs& inputs, SegmentChecker& checking,
                       const std::function<Result<void>(std::span<const MotionRow>)>& visit) {
     const std::uint64_t segments = inputs.poses.size() - 1;
@@ -247,10 +233,10 @@ void SegmentChecker::noteFar(std::uint32_t mesh, std::span<const Mat4> poses) {
     }
 }
 
-Command addMotion(CLI::App& program) {
+Command addMotion(CLI::App& program, const NamedQuestion& question) {
     auto options = std::make_shared<MotionOptions>();
-    CLI::App* parser = program.add_subcommand("motion", "does it touch on the way from pose to pose?");
-    parser->footer(kMotionFooter);
+    CLI::App* parser = program.add_subcommand(std::string(question.name), std::string(question.text));
+    parser->footer(std::string(question.help));
     addVolumeOption(*parser, options->volumes);
     addResampleOption(*parser, options->resample);
     addMeshOptions(*parser, options->meshes);

@@ -22,17 +22,17 @@ void MotionEnds::add(std::span<const MotionRow> rows) {
 
 void MotionEnds::addTo(std::vector<std::string>& notes) const {
     if (halfTurns > 0) {
-        notes.push_back("segments that turn by 180 degrees to within 0.0001: " + std::to_string(halfTurns) +
-                        ", the first of them " + std::to_string(firstHalfTurn) +
+        notes.push_back("segments within 0.0001 degrees of half a turn: " + std::to_string(halfTurns) +
+                        ", first: " + std::to_string(firstHalfTurn) +
                         "; rounding decides the sense of rotation; add a pose in between");
     }
     if (grazing > 0) {
         notes.push_back("segments that graze: " + std::to_string(grazing) +
-                        "; their toi_lower and toi_upper are farther apart than --resolution, or toi_upper is unknown");
+                        "; toi_lower and toi_upper are farther apart than --resolution, or toi_upper is unknown");
     }
     if (cut > 0) {
         notes.push_back("segments that reached the iteration limit: " + std::to_string(cut) +
-                        "; between their toi_lower and toi_upper nothing is known");
+                        "; undecided between toi_lower and toi_upper");
     }
 }
 

@@ -13,15 +13,15 @@ namespace voxtact::app {
 /// Checks motions of some meshes, on the host.
 class MotionEngine {
   public:
-    /// `threads`: 0: one for each processor.
+    /// `threads`: 0: one per processor.
     [[nodiscard]] static Result<MotionEngine> create(const Motion& question, std::uint32_t threads,
                                                      std::span<const MeshData> meshes);
 
-    /// The one before ends first: two may be too much.
+    /// Frees the previous volume first: memory may not suffice for two.
     void dropVolume() noexcept { scene_.reset(); }
     /// Sets the volume for the following queries. The arguments need not outlive the call.
     [[nodiscard]] Result<void> setVolume(const VolumeView& volume, const TransferFunctionDesc& function);
-    /// The segments between the poses of a mesh, by its number. Cancelled after an interrupt.
+    /// Checks the segments between the poses of a mesh, by its index. Cancelled after an interrupt.
     [[nodiscard]] Result<MotionAnswer> check(std::uint32_t mesh, std::span<const Mat4> poses, double threshold);
 
   private:

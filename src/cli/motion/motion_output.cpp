@@ -41,10 +41,10 @@ Result<void> MotionOutput::add(std::span<const MotionRow> rows) {
     return pass();
 }
 
-/// Hands on what has been written.
+/// Writes the pending text to standard output.
 Result<void> MotionOutput::pass() {
     if (file_) {
-        // A disk that is full now will not have room for the rest.
+        // After a failure, as on a full disk, the rest would fail, too.
         return file_->stream() ? Result<void>() : file_->close();
     }
     const std::string part = text_.str();
@@ -77,7 +77,7 @@ Result<void> MotionOutput::breakOff() {
         return {};
     }
     if (rows_ == 0) {
-        VOXTACT_TRY(add({})); // a table without rows has its head, too
+        VOXTACT_TRY(add({})); // an empty table also has its header
     }
     writer_.end({}, false);
     return pass();

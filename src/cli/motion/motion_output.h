@@ -16,20 +16,20 @@ namespace voxtact::app {
 /// thread at a time.
 class MotionOutput {
   public:
-    /// Opens the file. Both must outlive it.
+    /// Opens the file. Both arguments must outlive the output.
     [[nodiscard]] static Result<std::unique_ptr<MotionOutput>> create(const MotionOptions& options,
                                                                       const MotionInputs& inputs);
 
-    /// The next rows.
+    /// Appends rows.
     [[nodiscard]] Result<void> add(std::span<const MotionRow> rows);
     [[nodiscard]] std::uint64_t rows() const noexcept { return rows_; }
     [[nodiscard]] const MotionEnds& ends() const noexcept { return ends_; }
 
-    /// Completes what has been written; the file gets its name. `wallMilliseconds` is for --timing.
+    /// Completes the output and renames the file into place. `wallMilliseconds`: for --timing.
     [[nodiscard]] Result<void> finish(double wallMilliseconds);
-    /// Completes standard output with the rows that there are; no file gets its name.
+    /// Completes standard output after an interrupt; writes no file.
     [[nodiscard]] Result<void> breakOff();
-    /// After an error: ends what standard output has of a JSON document, so that it can be read.
+    /// After an error: closes a JSON document on standard output, so that it stays readable.
     [[nodiscard]] Result<void> fail();
 
   private:
@@ -39,7 +39,7 @@ class MotionOutput {
     const MotionOptions& options_;
     const MotionInputs& inputs_;
     std::optional<io::OutputFile> file_;
-    TextStream text_; ///< on its way to standard output
+    TextStream text_; ///< pending for standard output
     io::TableWriter writer_;
     io::NamedCells facts_; ///< JSON members before the rows
     std::uint64_t rows_ = 0;

@@ -27,7 +27,7 @@ struct MotionOptions {
     LabelOptions labels;
     std::string interpolation = "screw";
     double resolution = kDefaultMotionResolution;
-    std::uint32_t threads = 0; ///< 0: one a processor
+    std::uint32_t threads = 0; ///< 0: one per processor
     bool summary = false;
     bool timing = false;
     bool progress = true;
@@ -45,10 +45,10 @@ struct MotionInputs {
     std::map<std::int32_t, std::string> labelNames;
 };
 
-/// Checks the segments of some meshes and volumes.
+/// Checks the segments of all meshes and volumes.
 class SegmentChecker {
   public:
-    /// All must outlive it.
+    /// All arguments must outlive the checker.
     SegmentChecker(const MotionOptions& options, MotionInputs& inputs, MotionEngine& engine)
         : options_(options), inputs_(inputs), engine_(engine) {}
 
@@ -62,12 +62,12 @@ class SegmentChecker {
                                      const std::function<Result<void>(std::span<const MotionRow>)>& visit);
     /// Returns the duration so far.
     [[nodiscard]] double milliseconds() const noexcept { return milliseconds_; }
-    /// Of meshes that come near a volume at no pose.
+    /// Returns notes on meshes that no pose brings near a volume.
     [[nodiscard]] const std::vector<std::string>& notes() const noexcept { return notes_; }
 
   private:
-    /// More segments than are checked before their rows are written.
-    static constexpr std::uint32_t kMostAtOnce = 256;
+    /// Maximum segments checked before their rows are written.
+    static constexpr std::uint32_t kMaxAtOnce = 256;
 
     /// Returns for each segment whether it is half a turn.
     [[nodiscard]] Result<std::vector<bool>> checkRigid(std::span<const Mat4> poses, std::uint64_t firstPose) const;
@@ -76,10 +76,10 @@ class SegmentChecker {
     const MotionOptions& options_;
     MotionInputs& inputs_;
     MotionEngine& engine_;
-    std::uint32_t volume_ = 0; ///< its number
-    Grid grid_;                ///< its own
+    std::uint32_t volume_ = 0; ///< its index
+    Grid grid_;                ///< of the volume
     std::vector<std::string> notes_;
-    BatchPace pace_{kMostAtOnce, false};
+    BatchPace pace_{kMaxAtOnce, false};
     double milliseconds_ = 0;
 };
 
@@ -96,7 +96,7 @@ struct MotionEnds {
 
     void add(std::span<const MotionRow> rows);
     void addTo(std::vector<std::string>& notes) const;
-    /// The line of --summary.
+    /// Returns the line of --summary.
     [[nodiscard]] std::string summary() const;
 };
 

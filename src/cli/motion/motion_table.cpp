@@ -11,7 +11,7 @@ namespace voxtact::app {
 
 namespace {
 
-/// A nanometre: more digits say nothing.
+/// Steps per mm: more digits than a nanometre have no meaning.
 constexpr double kParts = 1e6;
 
 io::Cell millimetres(double value) {
@@ -24,7 +24,7 @@ io::Cell verdictOf(const SegmentMotion& motion) {
                              : io::NumberWord{0, "no"};
 }
 
-/// A cell's whole number cannot be negative, which a label can.
+/// A label may be negative, which the integer of a cell cannot.
 io::Cell labelCell(std::int32_t label) {
     return label < 0 ? io::Cell(static_cast<double>(label)) : io::Cell(static_cast<std::uint64_t>(label));
 }

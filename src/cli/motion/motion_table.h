@@ -15,15 +15,15 @@ namespace voxtact::app {
 
 /// One segment of one mesh against one volume.
 struct MotionRow {
-    std::uint32_t mesh = 0; ///< numbers in their lists
+    std::uint32_t mesh = 0; ///< indices in their lists
     std::uint32_t volume = 0;
     SegmentMotion motion;
-    bool halfTurn = false; ///< within rounding, so that this alone decides which way round it goes
+    bool halfTurn = false; ///< within rounding, so that rounding decides the sense of rotation
 };
 
 /// Inputs of the rows.
 struct MotionTable {
-    const std::vector<std::string>& meshes; ///< as they were given
+    const std::vector<std::string>& meshes; ///< as given
     const std::vector<std::string>& volumes;
     const std::optional<LabelData>& labels;
     const std::map<std::int32_t, std::string>& labelNames;
@@ -31,7 +31,7 @@ struct MotionTable {
     std::span<const MotionRow> rows;
     const io::NamedCells& facts; ///< JSON members before the rows
 
-    /// Returns the table, which references all of these.
+    /// Returns the table, which references all members.
     [[nodiscard]] io::Table table() const;
 };
 

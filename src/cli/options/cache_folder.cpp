@@ -20,10 +20,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Far above what a driver keeps for our few pipelines: a file beyond it is not ours.
-constexpr std::uintmax_t kMostBytes = 64U << 20U;
+/// Far above the cache of our few pipelines: larger files are not ours.
+constexpr std::uintmax_t kMaxBytes = 64U << 20U;
 
-/// An absolute path in an environment variable; the XDG specification has relative ones ignored.
+/// Returns an absolute path from an environment variable; the XDG specification ignores relative ones.
 fs::path folderFrom(const char* variable) {
     const char* value = std::getenv(variable);
     const fs::path folder = value == nullptr ? "" : value;
@@ -46,7 +46,7 @@ std::string hexadecimal(std::uint64_t value, int digits) {
     return text;
 }
 
-/// The first line of every file: length and checksum, since a driver may crash on a damaged pipeline cache.
+/// Returns the first line of a file: length and checksum, since a damaged pipeline cache may crash a driver.
 std::string headOf(std::string_view content) {
     return "voxtact cache " + hexadecimal(content.size(), 16) + " " +
            hexadecimal(XXH3_64bits(content.data(), content.size()), 16) + "\n";
@@ -64,11 +64,11 @@ std::optional<std::string> CacheFolder::read(const std::string& name) const {
     if (!on()) {
         return std::nullopt;
     }
-    const Result<std::string> file = io::readSmallFile(path_ / name, kMostBytes);
+    const Result<std::string> file = io::readSmallFile(path_ / name, kMaxBytes);
     if (!file.ok()) {
         return std::nullopt;
     }
-    const std::size_t head = file->find('\n') + 1; // 0 where there is none
+    const std::size_t head = file->find('\n') + 1; // 0 if there is none
     std::string content = file->substr(head);
     return file->substr(0, head) == headOf(content) ? std::optional(std::move(content)) : std::nullopt;
 }
@@ -80,7 +80,7 @@ bool CacheFolder::write(const std::string& name, std::string_view content) const
     std::error_code error;
     fs::create_directories(path_, error);
     if (fs::exists(path_ / name, error) && !fs::is_regular_file(path_ / name, error)) {
-        return false; // a pipe would wait for who reads it
+        return false; // a pipe would block without a reader
     }
     const Result<void> written = io::writeFile(path_ / name, [&](std::ostream& out) -> Result<void> {
         out << headOf(content) << content;

@@ -10,19 +10,19 @@
 
 namespace voxtact::app {
 
-/// Folder of data that is kept between runs. All contents can be recreated, so failures are not errors: unreadable data
-/// count as missing, unwritable data are dropped.
+/// Folder of data kept between runs. All contents can be recreated, so failures are not errors: unreadable data count
+/// as missing, unwritable data are dropped.
 class CacheFolder {
   public:
-    /// A cache that is off.
+    /// Creates a disabled cache.
     CacheFolder() = default;
     /// `wanted` is a folder, "off", or empty: $XDG_CACHE_HOME/voxtact, else ~/.cache/voxtact, else off.
     explicit CacheFolder(const std::string& wanted);
 
     [[nodiscard]] bool on() const noexcept { return !path_.empty(); }
-    /// A whole file as write() wrote it; nothing for one that is damaged or somebody else's.
+    /// Returns the contents that write() wrote; empty if the file is damaged or foreign.
     [[nodiscard]] std::optional<std::string> read(const std::string& name) const;
-    /// Makes the folder where it is missing, and replaces the file in one step. False when it could not.
+    /// Creates the folder if missing, and replaces the file atomically. Returns false on failure.
     bool write(const std::string& name, std::string_view content) const;
 
   private:

@@ -22,9 +22,9 @@ struct FileIdentity {
     auto operator<=>(const FileIdentity&) const = default;
 };
 
-/// Returns "cannot look at 'PATH': REASON".
+/// Returns "cannot examine 'PATH': REASON".
 [[nodiscard]] inline Error cannotLookAt(const std::filesystem::path& path, const std::error_code& why) {
-    return {ErrorCode::File, 0, "cannot look at '" + path.string() + "': " + why.message()};
+    return {ErrorCode::File, 0, "cannot examine '" + path.string() + "': " + why.message()};
 }
 
 /// Treatment of a path without permission. IsNothing is for guessed names: a file that cannot be examined is not read

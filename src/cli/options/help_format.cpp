@@ -10,7 +10,7 @@ namespace voxtact::app {
 namespace {
 
 constexpr std::size_t kLineColumns = 80;
-/// Column of the options' texts.
+/// Column where the texts of options begin.
 constexpr std::size_t kTextColumn = 27;
 
 } // namespace

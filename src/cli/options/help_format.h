@@ -8,10 +8,10 @@
 
 namespace voxtact::app {
 
-/// Formats `--help`: lines of at most 80 columns, an option's default behind its text.
+/// Formats `--help`: lines of at most 80 columns, the default after the text of an option.
 class HelpFormat : public CLI::Formatter {
   public:
-    /// `all`: with the rare options, as --help-all.
+    /// `all`: include rare options, as for --help-all.
     explicit HelpFormat(bool all) : all_(all) {}
 
     [[nodiscard]] std::string make_group(std::string group, bool isPositional,

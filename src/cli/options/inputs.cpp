@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::string_view kBuiltin = "builtin:";
 
-/// An error in a file's contents is no invalid argument.
+/// Errors in the contents of a file are run-time failures, not invalid arguments.
 Error fileFault(Error error) {
     if (error.code == ErrorCode::InvalidArgument) {
         error.code = ErrorCode::Format;
@@ -32,7 +32,7 @@ Error fileFault(Error error) {
     return error;
 }
 
-/// Error of a builtin, whose name is an argument, or of a file.
+/// Returns the error of a builtin, whose name is an argument, or of a file.
 Error sourceFault(const char* option, const std::string& source, const Error& error) {
     const bool isName = source.starts_with(kBuiltin) && error.code != ErrorCode::OutOfMemory;
     return isName ? badArgument(std::string(option) + " " + source + ": " + error.text) : fileFault(error);
@@ -124,10 +124,10 @@ Result<MeshData> loadMesh(const std::string& source, const MeshOptions& options)
                               " triangles have no area: only the projection certified counts them");
     }
     if (builtin && options.scale != 1) {
-        mesh->notes.emplace_back("--mesh-scale is about mesh files: a builtin is in mm");
+        mesh->notes.emplace_back("--mesh-scale has no effect on a builtin mesh, which is in mm");
     }
     if (builtin && options.space == "ras") {
-        mesh->notes.emplace_back("--mesh-space is about mesh files: a builtin is in LPS");
+        mesh->notes.emplace_back("--mesh-space has no effect on a builtin mesh, which is in LPS");
     }
     printNotes(source, mesh->notes);
     return mesh;
@@ -139,7 +139,7 @@ Result<std::vector<ControlPoint>> loadControlPoints(const TransferFunctionOption
         if (points.ok() || points.error().code == ErrorCode::OutOfMemory) {
             return points;
         }
-        constexpr std::string_view kWhat = "opacity"; // begins what parseOpacity() says
+        constexpr std::string_view kWhat = "opacity"; // prefix of parseOpacity() errors
         return badArgument(options.opacityOption + points.error().text.substr(kWhat.size()));
     }
     if (options.path.empty()) {
@@ -159,23 +159,23 @@ ValueRange tableDomain(const TransferFunctionOptions& options, ScalarType type, 
     if (data.lo < data.hi) {
         return data;
     }
-    // One value everywhere: it sits in the middle of a table that is as narrow as the numbers allow.
+    // All values are equal: use the narrowest representable table, with the value in the middle.
     const double half = std::max(0.5, std::abs(data.lo) * 1e-6);
     return {data.lo - half, data.lo + half};
 }
 
 std::uint32_t tableSizeFor(const TransferFunctionOptions& options, ScalarType type) {
-    constexpr std::uint32_t kFine = 4096; // every device has room for it
+    constexpr std::uint32_t kFine = 4096; // fits on every device
     return options.tableSize.value_or(type == ScalarType::UInt8 ? kDefaultTableSize : kFine);
 }
 
-/// A domain that leaves out some of the data is the user's right, and easily a slip.
+/// A domain may exclude some values, but usually by mistake.
 ValueRange usedDomain(const TransferFunctionOptions& options, ScalarType type, const ValueRange& data,
                       const std::string& source) {
     const ValueRange domain = tableDomain(options, type, data);
     if (data.lo < domain.lo || data.hi > domain.hi) {
         printNote(source + ": its values " + number(data.lo) + ":" + number(data.hi) +
-                  " go beyond --tf-domain; they take the opacity at its ends");
+                  " exceed --tf-domain; outside, the opacity of its ends applies");
     }
     return domain;
 }
@@ -192,8 +192,8 @@ Result<Grid> gridOfVolume(const std::string& source, bool resample) {
 
 Result<io::LabelFile> loadLabels(const std::filesystem::path& path, const GridSource& grid) {
     if (std::error_code ignored; path.string().starts_with("builtin:") && !std::filesystem::exists(path, ignored)) {
-        return badArgument("--labels takes a file, and " + forMessage(path.string()) +
-                           " is none; voxtact make volume writes a builtin to one");
+        return badArgument("--labels needs a file, not " + forMessage(path.string()) +
+                           "; voxtact make volume writes a builtin to a file");
     }
     const NamedImage image = namedImage(path.string());
     Result<io::VolumeReadOptions> options = imageChoice(path.string(), image);
@@ -283,7 +283,7 @@ Result<std::vector<Mat4>> loadPoses(const ViewOptions& options) {
     if (options.poses.empty()) {
         return std::vector<Mat4>{identity()};
     }
-    // Read as often as it has to be: it is all kept.
+    // Keeps all poses: it may be read several times.
     Result<std::vector<Mat4>> poses = options.poses == "-" ? readStandardPoses(options.posesFormat)
                                                            : io::readPoses(options.poses, options.posesFormat);
     if (!poses.ok()) {

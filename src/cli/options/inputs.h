@@ -14,39 +14,38 @@
 /// Reads the inputs of the options into host memory. Notes of the readers go to standard error.
 namespace voxtact::app {
 
-/// A path, of a file or folder with several images one as namedImage() says, or `builtin:NAME`.
-/// Which image is read is not of the options.
+/// Reads a path, with the image that namedImage() selects, or `builtin:NAME`. Ignores the image selection in `how`.
 [[nodiscard]] Result<VolumeData> loadVolume(const std::string& source, const io::VolumeReadOptions& how = {});
-/// Refuses a volume that is not there. Volumes are read one at a time: this is known before the first row is written.
+/// Refuses a missing volume, before the first row: volumes are read one at a time, later.
 [[nodiscard]] Result<void> checkVolumesAreThere(const std::vector<std::string>& sources);
 [[nodiscard]] Result<MeshData> loadMesh(const std::string& source, const MeshOptions& options);
 
-/// The control points that the user gave; none when the default ramp is wanted.
+/// Returns the control points of the options; none for the default ramp.
 [[nodiscard]] Result<std::vector<ControlPoint>> loadControlPoints(const TransferFunctionOptions& options);
-/// The domain that the user gave; else 0..255 for uint8 and the data's range, made wider where that is one value.
+/// Returns the domain of the options; else 0..255 for uint8, or the range of the values, widened if it is one value.
 [[nodiscard]] ValueRange tableDomain(const TransferFunctionOptions& options, ScalarType type, const ValueRange& data);
-/// Entries of the table of projections that are not certified.
+/// Returns the number of table entries for pixel projections.
 [[nodiscard]] std::uint32_t tableSizeFor(const TransferFunctionOptions& options, ScalarType type);
 /// Like tableDomain(), for the volume of a source; notes values outside the domain.
 [[nodiscard]] ValueRange usedDomain(const TransferFunctionOptions& options, ScalarType type, const ValueRange& data,
                                     const std::string& source);
-/// Opacity from 0 to 1 over the domain.
+/// Returns an opacity ramp from 0 to 1 over the domain.
 [[nodiscard]] std::vector<ControlPoint> defaultRamp(const ValueRange& domain);
 
-/// Gives the grid of the image that contours are filled on; called only for such a label map.
+/// Returns the grid to rasterise contours on; called only for label maps of contours.
 using GridSource = std::function<Result<Grid>()>;
-/// The grid of a volume, read for it alone.
+/// Returns the grid of a volume, without keeping the volume.
 [[nodiscard]] Result<Grid> gridOfVolume(const std::string& source, bool resample);
 
-/// A label map, named as a volume is. No `builtin:`.
+/// Reads a label map from a path like that of a volume, but no `builtin:`.
 [[nodiscard]] Result<io::LabelFile> loadLabels(const std::filesystem::path& path, const GridSource& grid);
 /// Returns the path of the label names: `names`, or if empty the label map's path without .gz, with .txt.
 [[nodiscard]] std::filesystem::path labelNamesPath(const std::filesystem::path& names,
                                                    const std::filesystem::path& labels);
-/// The names of its labels from there; none where `names` is empty and that file is not there or cannot be read.
+/// Reads the names from labelNamesPath(); returns none if `names` is empty and that file is missing or unreadable.
 [[nodiscard]] Result<std::map<std::int32_t, std::string>> loadLabelNames(const std::filesystem::path& names,
                                                                          const std::filesystem::path& labels);
-/// A label map and its names; those of the label map if there is no file of names.
+/// Reads a label map and its names; without a file of names, uses the names in the label map.
 struct NamedLabels {
     LabelData labels;
     std::map<std::int32_t, std::string> names;
@@ -54,11 +53,11 @@ struct NamedLabels {
 [[nodiscard]] Result<NamedLabels> loadNamedLabels(const std::filesystem::path& labels,
                                                   const std::filesystem::path& names, const GridSource& grid);
 
-/// All that standard input holds.
+/// Reads all of standard input.
 [[nodiscard]] Result<std::vector<Mat4>> readStandardPoses(io::PoseFormat format);
-/// The identity when there is no path; "-" is standard input.
+/// Reads poses; without a path, returns the identity. "-": standard input.
 [[nodiscard]] Result<std::vector<Mat4>> loadPoses(const ViewOptions& options);
-/// A point or pose from `space` to LPS: "ras" turns x and y round; a pose takes and gives such points.
+/// Converts a point or pose from `space` to LPS: "ras" negates x and y; a pose maps points of `space`.
 [[nodiscard]] Vec3 lpsFrom(const std::string& space, const Vec3& point);
 [[nodiscard]] Mat4 lpsFrom(const std::string& space, const Mat4& pose);
 

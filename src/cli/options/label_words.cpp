@@ -11,15 +11,15 @@ namespace voxtact::app {
 namespace {
 
 std::string listOf(const std::vector<std::string>& names) {
-    constexpr std::size_t kMost = 8;
+    constexpr std::size_t kMax = 8;
     std::string out;
-    for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i) {
+    for (std::size_t i = 0; i < std::min(names.size(), kMax); ++i) {
         out += (i > 0 ? ", " : "") + names[i];
     }
-    return names.size() > kMost ? out + ", ..." : out;
+    return names.size() > kMax ? out + ", ..." : out;
 }
 
-/// The labels that voxels have, ascending: 0 may be known and nowhere.
+/// Returns the labels of voxels, ascending. The list of labels may have a 0 that no voxel has.
 std::vector<std::int32_t> presentLabels(const LabelData& labels) {
     std::vector<bool> seen(labels.values.size());
     for (const std::uint16_t index : labels.indices) {
@@ -47,16 +47,16 @@ Result<std::vector<std::int32_t>> labelsOf(const NamedLabels& labels, const Labe
                                            const std::string& option) {
     const std::optional<std::int32_t> number = labelNumber(word);
     std::vector<std::string> names;
-    std::vector<std::int32_t> found;
+    std::vector<std::int32_t> matches;
     for (const std::int32_t value : presentLabels(labels.labels)) {
         const auto name = labels.names.find(value);
         if (number ? value == *number : name != labels.names.end() && name->second == word) {
-            found.push_back(value);
+            matches.push_back(value);
         }
         names.push_back(number || name == labels.names.end() ? std::to_string(value) : name->second);
     }
-    if (!found.empty()) {
-        return found;
+    if (!matches.empty()) {
+        return matches;
     }
     const std::string meant = nearestName(word, names);
     return badArgument(option + ": no voxel of the label map has the label " + forMessage(word) +
@@ -64,14 +64,14 @@ Result<std::vector<std::int32_t>> labelsOf(const NamedLabels& labels, const Labe
 }
 
 Result<std::int32_t> labelOf(const NamedLabels& labels, const LabelWord& word, const std::string& option) {
-    const Result<std::vector<std::int32_t>> found = labelsOf(labels, word, option);
-    VOXTACT_TRY(found);
-    if (found->size() > 1) {
-        return badArgument(option + ": " + std::to_string(found->size()) + " labels are called " + forMessage(word) +
-                           ", " + std::to_string((*found)[0]) + " and " + std::to_string((*found)[1]) +
-                           " among them; give the number of one");
+    const Result<std::vector<std::int32_t>> matches = labelsOf(labels, word, option);
+    VOXTACT_TRY(matches);
+    if (matches->size() > 1) {
+        return badArgument(option + ": " + std::to_string(matches->size()) + " labels are called " + forMessage(word) +
+                           ", " + std::to_string((*matches)[0]) + " and " + std::to_string((*matches)[1]) +
+                           " among them; give a label number instead");
     }
-    return found->front();
+    return matches->front();
 }
 
 std::string labelName(const std::map<std::int32_t, std::string>& names, std::int32_t label) {

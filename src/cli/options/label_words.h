@@ -9,21 +9,21 @@
 #include <string>
 #include <vector>
 
-/// Labels as an option names them.
+/// Labels in options: numbers or names.
 namespace voxtact::app {
 
-/// A label by its number, or by its name.
+/// A number or name of a label.
 using LabelWord = std::string;
 
-/// A number of a label, which no voxel needs to have; nothing where the word is a name.
+/// Returns the number if the word is one, also if no voxel has the label; empty for a name.
 [[nodiscard]] std::optional<std::int32_t> labelNumber(const LabelWord& word);
-/// All labels that voxels have of a number or a name: several may be called the same. Never none. `option` is for
+/// Returns the labels of voxels with this number or name: several may share a name. Never empty. `option`: for
 /// messages.
 [[nodiscard]] Result<std::vector<std::int32_t>> labelsOf(const NamedLabels& labels, const LabelWord& word,
                                                          const std::string& option);
-/// The only one.
+/// Returns the only such label; refuses several.
 [[nodiscard]] Result<std::int32_t> labelOf(const NamedLabels& labels, const LabelWord& word, const std::string& option);
-/// The name of a label, or its number where it has none.
+/// Returns the name of a label, or its number if it has none.
 [[nodiscard]] std::string labelName(const std::map<std::int32_t, std::string>& names, std::int32_t label);
 
 } // namespace voxtact::app

@@ -34,22 +34,21 @@ std::vector<std::string> opacityNotes(const TransferFunctionDesc& function, cons
     constexpr double kNoted = 0.01; // of the data's range
     if (byTable && facts->moved > kNoted * (data.hi - data.lo)) {
         return {source + ": the table of the transfer function " +
-                (std::isinf(facts->moved) ? "passes over opaque values"
+                (std::isinf(facts->moved) ? "skips opaque values"
                                           : "moves an end of the opaque values by " + number(facts->moved)) +
-                "; only certified answers are exact; --tf-size and --tf-domain make the table finer"};
+                "; only certified answers are exact; refine the table with --tf-size or --tf-domain"};
     }
     return {};
 }
 
 std::string presetNote(const std::string& preset, const ValueRange& data) {
-    constexpr double kLeast = -200; // air is at -1000: where nothing is below this the numbers are others
+    constexpr double kMaxAir = -200; // air is about -1000 HU: without lower values, the unit differs
     const LookPreset* const known = findLookPreset(preset);
-    if (known == nullptr || !known->hounsfield || data.lo <= kLeast) {
+    if (known == nullptr || !known->hounsfield || data.lo <= kMaxAir) {
         return {};
     }
-    return "--preset " + preset + " is in Hounsfield units, in which air is -1000; the volume's values, " +
-           number(data.lo) + " to " + number(data.hi) +
-           ", are others: --opacity and --transfer-function say what is seen";
+    return "--preset " + preset + " expects Hounsfield units, with air at -1000; the values of the volume are " +
+           number(data.lo) + " to " + number(data.hi) + "; use --opacity or --transfer-function instead";
 }
 
 void printOpacityNotes(const TransferFunctionDesc& function, const ValueRange& data, double threshold,

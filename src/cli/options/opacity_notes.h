@@ -9,9 +9,9 @@
 
 namespace voxtact::app {
 
-/// Returns a note on a transfer function under which nothing of a volume is opaque; with `byTable`, also on one whose
-/// table moves an end of the opaque values by more than a hundredth of the volume's range. `data`: the values of the
-/// volume; `source`: its name; `who`: the option that gave the points. None for a function that sampleTable() refuses.
+/// Returns a note if a transfer function makes nothing of a volume opaque; with `byTable`, also if its table moves an
+/// end of the opaque values by more than a hundredth of the volume's range. `data`: range of the volume's values;
+/// `source`: its name; `who`: the option with the points. Returns none if sampleTable() refuses the function.
 [[nodiscard]] std::vector<std::string> opacityNotes(const TransferFunctionDesc& function, const ValueRange& data,
                                                     double threshold, const std::string& source, bool byTable,
                                                     std::string_view who = "the transfer function");
@@ -19,8 +19,7 @@ namespace voxtact::app {
 /// Returns the note for a preset in Hounsfield units on other values; otherwise empty.
 [[nodiscard]] std::string presetNote(const std::string& preset, const ValueRange& data);
 
-/// Says what opacityNotes() has on standard error, and each note once, however many volumes it is true of. One thread
-/// at a time.
+/// Prints opacityNotes() on standard error, each note once, also for several volumes. One thread at a time.
 void printOpacityNotes(const TransferFunctionDesc& function, const ValueRange& data, double threshold,
                        const std::string& source, bool byTable);
 

@@ -13,12 +13,12 @@ struct SessionExtensions {
     std::vector<const char*> device{};
 };
 
-/// On the device that the user chose. The context's warnings are printed as notes.
+/// Opens the device of the options. Prints the context's warnings as notes.
 [[nodiscard]] Result<device::Session> openSession(const DeviceChoice& choice, const SessionExtensions& extensions = {});
 /// Returns the user's location of a device's pipeline cache.
 [[nodiscard]] device::PipelineStore pipelineStore(const DeviceChoice& choice, const device::PhysicalDevice& device);
 
-/// Once everything made on the instance has ended: exit status 3 with the first message, if there was any.
+/// Call after all objects of the instance are destroyed. Returns exit status 3 with the first message, if any.
 [[nodiscard]] Outcome validationOutcome(const device::ValidationMessages& messages);
 
 } // namespace voxtact::app

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 bool keepsExisting = false;
 bool hasFiles = false;
 
-/// "a%20b" as "a b": how glTF writes names.
+/// Decodes "a%20b" to "a b", as glTF encodes names.
 std::string withoutPercents(std::string_view text) {
     constexpr int kHexadecimal = 16;
     std::string out;
@@ -63,7 +63,7 @@ void addNames(std::string_view line, std::vector<std::string>& names) {
     }
 }
 
-/// The file that belongs to a header whose format says so by its name.
+/// Returns the names of the files that belong to a header by its name.
 std::vector<std::string> siblingNames(const fs::path& header, const std::string& ending) {
     const std::string stem = header.stem().string();
     if (ending == ".hdr") {
@@ -148,7 +148,7 @@ Result<void> checkApart(const NamedPath& output, const NamedPath& input) {
                   : Result<void>();
 }
 
-/// Output of several writers to standard output would be mixed.
+/// Refuses a second writer to standard output: their outputs would be mixed.
 Result<void> checkOneOnStandardOutput(const std::vector<NamedPath>& outputs) {
     const NamedPath* first = nullptr;
     for (const NamedPath& output : outputs) {
@@ -177,16 +177,16 @@ Result<std::vector<std::string>> namesIn(const fs::path& header) {
     }
     std::vector<std::string> names;
     if (ending == ".nhdr" || ending == ".mhd" || ending == ".gltf") {
-        constexpr std::size_t kMost = std::size_t{1} << 22U;
+        constexpr std::size_t kMaxBytes = std::size_t{1} << 22U;
         errno = 0;
         std::ifstream file(header, std::ios::binary);
         if (!file) {
             return cannotLookAt(header, {errno != 0 ? errno : EIO, std::generic_category()});
         }
-        file.exceptions(std::ios::badbit); // which getline() takes for the end
+        file.exceptions(std::ios::badbit); // otherwise getline() treats an error as the end
         try {
             std::string line;
-            for (std::size_t read = 0; read < kMost && std::getline(file, line); read += line.size() + 1) {
+            for (std::size_t read = 0; read < kMaxBytes && std::getline(file, line); read += line.size() + 1) {
                 addNames(line, names);
             }
         } catch (const std::ios::failure& failure) {

@@ -16,8 +16,8 @@ struct NamedPath {
     std::filesystem::path path;
 };
 
-/// A file or folder of volumes as the user names it: its path, and behind a '#' which of its images is meant (a frame,
-/// the UID of a series). A path that is there as it stands has no such part.
+/// A file or folder of volumes as in an option: its path, and after a '#' the selected image (a frame, or the UID of a
+/// series). The whole text is the path if it exists.
 struct NamedImage {
     std::filesystem::path path;
     std::string which; ///< empty: the only one
@@ -32,13 +32,12 @@ void addInput(std::vector<NamedPath>& inputs, const char* option, const std::fil
                                                 const TransferFunctionOptions& transferFunction,
                                                 const ViewOptions& view, const LabelOptions& labels = {});
 
-/// Files that a header (.hdr, .nhdr, .mhd, .gltf) may refer to in its folder, and that need not be there; no
-/// format is read strictly.
+/// Returns files that a header (.hdr, .nhdr, .mhd, .gltf) may refer to; they need not exist. Reads headers leniently.
 [[nodiscard]] Result<std::vector<std::filesystem::path>> filesNamedIn(const std::filesystem::path& header);
 
-/// Refuses outputs that cannot be written, two that are one file or standard output ("-"), one that is an input by
-/// whatever name: a link, another spelling, a file of a DICOM folder, the file of voxels or buffers that a header
-/// names; and, after keepExisting(true), one that exists. Empty paths are not examined.
+/// Refuses outputs that cannot be written, two outputs to one file or to standard output ("-"), and an output that is
+/// an input under any name: a link, another spelling, a file of a DICOM folder, a data file of a header. After
+/// keepExisting(true), also refuses existing files. Ignores empty paths.
 [[nodiscard]] Result<void> checkOutputs(const std::vector<NamedPath>& outputs, const std::vector<NamedPath>& inputs);
 /// Sets whether checkOutputs() refuses existing files: without --force.
 void keepExisting(bool keep) noexcept;

@@ -22,7 +22,7 @@ double lengthOf(const Box& box) {
     return std::hypot(box.hi[0] - box.lo[0], box.hi[1] - box.lo[1], box.hi[2] - box.lo[2]);
 }
 
-/// From the world to mm along the image's axes, from its first corner.
+/// Returns the transform from world to mm along the image axes, with the origin at the first corner.
 Mat4 alongImage(const Grid& image) {
     const Result<Mat4> texture_from_world = textureFromWorld(image);
     Mat4 image_from_world = texture_from_world.ok() ? *texture_from_world : identity();
@@ -45,7 +45,7 @@ Placement placementOf(const Box& box, const Grid& image) {
     return std::isfinite(placement.overlap) ? placement : Placement{0, kInfinity};
 }
 
-/// Options that differ from those that were given.
+/// Differences from the given options.
 struct Change {
     bool space = false;
     double scale = 1;
@@ -81,7 +81,7 @@ Placement placementOf(const ReadMesh& mesh, const Change& change, const Grid& im
     return best;
 }
 
-/// The space that the file was not read in; none where it states the one that it was read in, or is a builtin.
+/// Returns the other space; empty if the file states its space, or for a builtin.
 std::optional<std::string> otherSpace(const ReadMesh& mesh) {
     const Box mirrored = changed(mesh.bounds, {.space = true});
     for (const io::MeshSpace space : {io::MeshSpace::RAS, io::MeshSpace::LPS}) {
@@ -94,7 +94,7 @@ std::optional<std::string> otherSpace(const ReadMesh& mesh) {
     return std::nullopt;
 }
 
-/// What the options would be.
+/// Returns the text of the changed options.
 std::string optionsOf(const ReadMesh& mesh, const Change& change, const std::string& space) {
     std::string options = change.space ? "--mesh-space " + space : "";
     const auto add = [&options](const std::string& option) { options += (options.empty() ? "" : " ") + option; };
@@ -107,7 +107,7 @@ std::string optionsOf(const ReadMesh& mesh, const Change& change, const std::str
     return options;
 }
 
-/// Rounded, and 100 % only if it is.
+/// Returns a rounded percentage; 100 % only if exact.
 std::string shareText(double share) {
     return number(share < 1 ? std::min(std::round(100 * share), 99.0) : 100) + " %";
 }
@@ -120,7 +120,7 @@ Placement placementOf(const ReadMesh& mesh, const Grid& image) {
 
 std::vector<OtherReading> otherReadings(const ReadMesh& mesh, const Grid& image) {
     constexpr double kFarMore = 0.05;
-    constexpr double kStriking = 50; // times as long as the other one
+    constexpr double kStriking = 50; // ratio of lengths
     constexpr std::array kChanges{Change{true, 1, false}, Change{false, 1e3, false}, Change{false, 1e-3, false},
                                   Change{false, 1, true}, Change{true, 1e3, false},  Change{true, 1e-3, false},
                                   Change{true, 1, true}};
@@ -136,21 +136,21 @@ std::vector<OtherReading> otherReadings(const ReadMesh& mesh, const Grid& image)
         return isLikely && (isFile || (!change.space && change.scale == 1)) &&
                (!change.poses || !mesh.posesSpace.empty());
     };
-    std::vector<OtherReading> found;
-    int count = 1; // of options: more of them only where fewer do not help
+    std::vector<OtherReading> readings;
+    int count = 1; // changed options: prefers fewer
     for (const Change& change : kChanges) {
         const double overlap = isPossible(change) ? placementOf(mesh, change, image).overlap : 0;
-        if (overlap <= present + kFarMore || (!found.empty() && change.count() > count)) {
+        if (overlap <= present + kFarMore || (!readings.empty() && change.count() > count)) {
             continue;
         }
         const std::optional<std::string> space = change.space ? otherSpace(mesh) : std::optional<std::string>("");
         if (space) {
             count = change.count();
-            found.push_back({optionsOf(mesh, change, *space), overlap, *space, mesh.options.scale * change.scale});
+            readings.push_back({optionsOf(mesh, change, *space), overlap, *space, mesh.options.scale * change.scale});
         }
     }
-    std::ranges::stable_sort(found, std::greater<>(), &OtherReading::overlap);
-    return found;
+    std::ranges::stable_sort(readings, std::greater<>(), &OtherReading::overlap);
+    return readings;
 }
 
 std::string toText(const OtherReading& reading) {

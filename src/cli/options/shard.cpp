@@ -28,7 +28,7 @@ std::optional<Shard> parseShard(std::string_view text) {
 } // namespace
 
 std::pair<std::uint64_t, std::uint64_t> Shard::range(std::uint64_t rows) const noexcept {
-    // Without an overflow: the remainder, times an index, has 64 bits.
+    // No overflow: the product of the remainder and an index fits in 64 bits.
     const auto first = [&](std::uint64_t part) { return rows / count * part + rows % count * part / count; };
     return {first(index - 1), first(index)};
 }
@@ -54,12 +54,13 @@ Result<void> checkShard(const Shard& shard, OutputOptions& output,
         output.formatName = "csv";
     }
     if (output.formatName != "csv") {
-        return badArgument("--format " + output.formatName + ": not with --shard, whose parts are CSV; leave it out");
+        return badArgument("--format " + output.formatName + ": --shard writes CSV; leave --format out");
     }
     for (const auto& [given, option] : whole) {
         if (given) {
-            return badArgument(option + std::string(": not with --shard, since it is about the whole run; leave out one"
-                                                    " of the two"));
+            return badArgument(
+                option +
+                std::string(": not with --shard, because it describes the whole run; leave out one of the two"));
         }
     }
     return {};

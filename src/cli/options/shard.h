@@ -13,14 +13,14 @@ class App;
 
 namespace voxtact::app {
 
-/// A contiguous part of a run's rows: number `index`, from 1, of `count`. The CSV of the parts, one behind the other,
-/// is that of the whole run.
+/// A contiguous part of a run's rows: number `index`, from 1, of `count`. The concatenated CSV of all parts is the CSV
+/// of the whole run.
 struct Shard {
     std::uint32_t index = 1;
     std::uint32_t count = 1;
 
     [[nodiscard]] bool isPart() const noexcept { return count > 1; }
-    /// Returns true if its CSV has the header line.
+    /// Returns true if the part has the CSV header.
     [[nodiscard]] bool hasHead() const noexcept { return index == 1; }
     /// Returns the first row of the part, and the end of its rows.
     [[nodiscard]] std::pair<std::uint64_t, std::uint64_t> range(std::uint64_t rows) const noexcept;
@@ -28,8 +28,8 @@ struct Shard {
 
 void addShardOption(CLI::App& parser, Shard& shard);
 
-/// Refuses formats that cannot be put together from parts, and those options (whether given, name) that are about the
-/// whole run. Rows of a part are CSV by default.
+/// Refuses formats other than CSV, and given options (is given, name) that describe the whole run. Rows of a part are
+/// CSV by default.
 [[nodiscard]] Result<void> checkShard(const Shard& shard, OutputOptions& output,
                                       std::initializer_list<std::pair<bool, const char*>> whole);
 

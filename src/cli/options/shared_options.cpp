@@ -46,11 +46,11 @@ std::string join(const std::vector<std::string>& names) {
 /// Refuses a name that is not in `available`.
 void requireName(const char* option, const std::string& name, const std::vector<std::string>& available) {
     if (std::find(available.begin(), available.end(), name) == available.end()) {
-        refuse(option, quote(name) + " is not known; there are: " + join(available));
+        refuse(option, quote(name) + " is unknown; choose from: " + join(available));
     }
 }
 
-/// "lps" or "ras", in capitals as well.
+/// Parses "lps" or "ras", in any case.
 std::string parseSpace(const char* option, const std::string& text) {
     std::string space = CLI::detail::to_lower(text);
     requireName(option, space, {"lps", "ras"});
@@ -65,17 +65,17 @@ template <class Value> std::vector<std::string> namesOf(std::span<const Value> v
     return names;
 }
 
-/// An option whose text `parse` reads; it calls refuse() for what it cannot use.
+/// Adds an option that `parse` reads; `parse` calls refuse() for unusable text.
 CLI::Option* addParsed(CLI::App& parser, const char* option, const std::function<void(const std::string&)>& parse,
                        const std::string& help, const char* type, const char* standard) {
     return parser.add_option_function<std::string>(option, parse, help)->type_name(type)->default_str(standard);
 }
 
-/// Refuses what `use` says is wrong.
-std::function<void(const std::string&)> refusing(const char* option, const UseText& use) {
-    return [option, use](const std::string& text) {
+/// Refuses text for which `use` returns an error.
+std::function<void(const std::string&)> refusing(std::string option, const UseText& use) {
+    return [option = std::move(option), use](const std::string& text) {
         if (const std::optional<std::string> wrong = use(text)) {
-            refuse(option, quote(text) + " " + *wrong);
+            refuse(option.c_str(), quote(text) + " " + *wrong);
         }
     };
 }
@@ -205,7 +205,7 @@ void addMeshOptions(CLI::App& parser, MeshOptions& options, bool required) {
 
 namespace {
 
-/// V or V:W, as the points that make just these values opaque.
+/// Converts V or V:W to points that make only these values opaque.
 std::optional<std::string> setIso(const std::string& text, TransferFunctionOptions& options) {
     const std::size_t colon = text.find(':');
     const std::string from = text.substr(0, colon);
@@ -213,7 +213,7 @@ std::optional<std::string> setIso(const std::string& text, TransferFunctionOptio
     const auto lo = parseFinite(from);
     const auto hi = colon == std::string::npos ? lo : parseFinite(to);
     if (!lo || !hi || *lo > *hi) {
-        return "is not a value V, or V:W with V no more than W";
+        return "is not a value V, or V:W with V <= W";
     }
     options.opacity = from + ":0," + from + ":1" + (to.empty() ? "" : "," + to + ":1," + to + ":0");
     options.opacityOption = "--iso";
@@ -240,12 +240,12 @@ void addTableOptions(CLI::App& parser, TransferFunctionOptions& options) {
     addParsed(
         parser, "--tf-domain",
         [&options](const std::string& text) { options.domain = parseDomain("--tf-domain", text); },
-        "values that the table of pixel projections covers; default: 0:255 for uint8, else the image's range", "LO:HI",
-        "");
+        "value range of the transfer function's table; default: 0:255 for uint8, else the image's range", "LO:HI", "");
     setRare(parser, "--tf-domain");
     addWholeNumber(
         parser, "--tf-size", [&options](std::uint32_t size) { options.tableSize = size; },
-        {.least = 2, .most = kMaxTableSize}, "entries of that table; default: 256 for uint8, else 4096", std::nullopt);
+        {.least = 2, .most = kMaxTableSize},
+        "entries of the transfer function's table; default: 256 for uint8, else 4096", std::nullopt);
     setRare(parser, "--tf-size");
 }
 
@@ -320,7 +320,7 @@ void addName(CLI::App& parser, const char* option, std::string& name, const std:
             for (const char* one : known) {
                 all += (all.empty() ? "" : ", ") + std::string(one);
             }
-            refuse(option, quote(text) + " is not known; there are: " + all);
+            refuse(option, quote(text) + " is unknown; choose from: " + all);
         }
         name = text;
     };
@@ -385,8 +385,7 @@ void addMethodOptions(CLI::App& parser, MethodOptions& options) {
         "certified, view, two-view, dominant-axis; default: certified if the method supports it", "P", "");
     addWholeNumber(
         parser, "--samples-per-voxel", [&options](std::uint32_t samples) { options.samplesPerVoxel = samples; },
-        {.least = 1, .most = kMaxSamplesPerVoxel}, "dominant-axis: samples along a voxel's side",
-        kDefaultSamplesPerVoxel);
+        {.least = 1, .most = kMaxSamplesPerVoxel}, "dominant-axis: samples per voxel side", kDefaultSamplesPerVoxel);
     addFact(parser, factOf("count", "resolution"), [&options](double resolution) { options.resolution = resolution; });
     addParsed(
         parser, "--filter",

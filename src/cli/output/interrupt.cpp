@@ -36,7 +36,7 @@ InterruptGuard::InterruptGuard() noexcept {
         if (::sigaction(signal.number, nullptr, &old) == 0 && old.sa_handler == SIG_DFL) {
             struct sigaction action {};
             action.sa_handler = noteSignal;
-            action.sa_flags = static_cast<int>(SA_RESETHAND); // and no SA_RESTART: a read from standard input ends
+            action.sa_flags = static_cast<int>(SA_RESETHAND); // no SA_RESTART: interrupts a read from standard input
             ::sigemptyset(&action.sa_mask);
             ::sigaction(signal.number, &action, nullptr);
         }

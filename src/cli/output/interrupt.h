@@ -7,8 +7,8 @@
 
 namespace voxtact::app {
 
-/// While it lives, the first SIGINT, SIGTERM or SIGHUP (that is not ignored) is only noted, so that the work can stop
-/// where nothing is half done; the second one ends the program at once. One at a time.
+/// Records the first SIGINT, SIGTERM or SIGHUP (unless ignored), so that the work can stop cleanly; a second signal
+/// ends the program at once. Only one guard may exist at a time.
 class InterruptGuard {
   public:
     InterruptGuard() noexcept;
@@ -19,10 +19,10 @@ class InterruptGuard {
 
 /// Returns true after a signal; from any thread.
 [[nodiscard]] bool interrupted() noexcept;
-/// Returns the flag of interrupted(), for calls that take one.
+/// Returns the flag behind interrupted(), for calls with a cancel flag.
 [[nodiscard]] const std::atomic<bool>& interruptFlag() noexcept;
 
-/// Returns exit status 128 plus the signal's number, like a shell, and "interrupted by SIGINT: " with the consequence.
+/// Returns exit status 128 plus the signal number, like a shell, and "interrupted by SIGINT: " with `what`.
 [[nodiscard]] Outcome interruptOutcome(const std::string& what);
 
 } // namespace voxtact::app

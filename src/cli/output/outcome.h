@@ -8,9 +8,9 @@
 namespace voxtact::app {
 
 inline constexpr int kExitDone = 0;
-inline constexpr int kExitFailed = 1;    ///< at run time: no device, a file that cannot be read
+inline constexpr int kExitFailed = 1;    ///< run-time failure: no device, an unreadable file
 inline constexpr int kExitArguments = 2; ///< unusable arguments
-inline constexpr int kExitVerify = 3;    ///< a verification that was asked for has failed
+inline constexpr int kExitVerify = 3;    ///< a requested verification failed
 
 /// Result of a command: its exit status and, unless that is 0, the error line.
 struct Outcome {

@@ -28,7 +28,7 @@ Error fileError(const fs::path& path, const std::string& why) {
     return Error{ErrorCode::File, 0, "cannot write '" + path.string() + "': " + why};
 }
 
-/// A device, a pipe: io::writeFile() writes it as it is, so that its folder does not matter.
+/// Returns true for devices and pipes: io::writeFile() writes them directly, without a temporary file in the folder.
 bool isSpecial(const fs::path& path) {
     std::error_code ignored;
     const fs::file_status status = fs::status(path, ignored);
@@ -62,7 +62,7 @@ Result<void> checkOutput(const fs::path& path) {
         return fileError(path, there.error().text);
     }
     if (!*there || !S_ISDIR((*there)->st_mode)) {
-        return fileError(path, "the folder '" + folder.string() + "' does not exist: make it first");
+        return fileError(path, "the folder '" + folder.string() + "' does not exist; create it first");
     }
     if (::access(folder.c_str(), W_OK | X_OK) != 0) {
         return fileError(path, "the folder '" + folder.string() + "': " + std::generic_category().message(errno));
@@ -90,7 +90,7 @@ Result<void> checkDistinct(const std::vector<std::pair<std::string, fs::path>>& 
         }
         if (first != number) {
             return badArgument(paths[first].first + " and " + option + ": both are '" + path.string() +
-                               "'; each needs a file of its own");
+                               "'; give each its own file");
         }
     }
     return {};
@@ -106,10 +106,10 @@ Result<void> deliver(const fs::path& path, const std::function<Result<void>(std:
 }
 
 Result<void> deliverAll(std::vector<Delivery> deliveries) {
-    std::vector<io::OutputFile> files; // closed: there may be more than a process may have open
+    std::vector<io::OutputFile> files; // closed: a process can have a limited number of open files
     std::string text;
     for (Delivery& delivery : deliveries) {
-        const auto write = std::exchange(delivery.write, {}); // what it holds goes with it
+        const auto write = std::exchange(delivery.write, {}); // frees what it captured afterwards
         if (isStandardOutput(delivery.path)) {
             TextStream out;
             VOXTACT_TRY(write(out));
@@ -122,7 +122,7 @@ Result<void> deliverAll(std::vector<Delivery> deliveries) {
         VOXTACT_TRY(file->close());
         files.push_back(std::move(*file));
     }
-    // Standard output cannot be undone, and may fail.
+    // Standard output first: it may fail and cannot be undone.
     if (!text.empty()) {
         VOXTACT_TRY(writeStandardOutput(text));
     }

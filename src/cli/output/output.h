@@ -21,7 +21,7 @@ struct OutputOptions {
     [[nodiscard]] io::Format format() const;
 };
 
-/// Column of commands with --resample: whether the volume was resampled.
+/// Column of commands with --resample: 1 if the volume was resampled.
 inline constexpr const char* kResampledColumn = "resampled";
 [[nodiscard]] inline io::Cell resampledCell(bool isResampled) {
     return isResampled ? io::NumberWord{1, "yes"} : io::NumberWord{0, "no"};
@@ -30,12 +30,11 @@ inline constexpr const char* kResampledColumn = "resampled";
 /// Checks that `path` can be written, without writing, before any work. An empty path is valid.
 [[nodiscard]] Result<void> checkOutput(const std::filesystem::path& path);
 
-/// Refuses two of the named paths ("--output", path) that are one file; empty ones, devices and pipes are not
-/// examined.
+/// Refuses two named paths ("--output", path) of one file; ignores empty paths, devices and pipes.
 [[nodiscard]] Result<void> checkDistinct(const std::vector<std::pair<std::string, std::filesystem::path>>& paths);
 
-/// Calls `write`, and puts what it wrote in `path` (a temporary file, renamed; devices and pipes are written as they
-/// are) or, where that is empty, on standard output. Nothing is put there when `write` fails.
+/// Calls `write` and delivers its output to `path` (via a temporary file; devices and pipes directly), or to standard
+/// output if `path` is empty. Delivers nothing if `write` fails.
 [[nodiscard]] Result<void> deliver(const std::filesystem::path& path,
                                    const std::function<Result<void>(std::ostream&)>& write);
 
@@ -45,7 +44,7 @@ struct Delivery {
     std::function<Result<void>(std::ostream&)> write;
 };
 
-/// deliver() of several: nothing is put anywhere before all are written, and standard output comes first.
+/// Delivers several outputs: none before all are written, standard output first.
 [[nodiscard]] Result<void> deliverAll(std::vector<Delivery> deliveries);
 
 } // namespace voxtact::app

@@ -40,7 +40,7 @@ std::string withCommas(std::uint64_t number) {
 }
 
 std::string timeLeft(std::uint64_t done, std::uint64_t total, double secondsSoFar) {
-    constexpr double kSoonest = 1; // before, there is too little to go by
+    constexpr double kSoonest = 1; // s: earlier estimates are too inaccurate
     if (done == 0 || done >= total || secondsSoFar < kSoonest) {
         return {};
     }

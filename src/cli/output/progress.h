@@ -11,7 +11,7 @@ namespace voxtact::app {
 /// elsewhere one line per minute.
 class Progress {
   public:
-    /// `wanted` false: does nothing. `total` 0: not known.
+    /// `wanted` false: shows nothing. `total` 0: unknown.
     Progress(bool wanted, std::string title, std::uint64_t total);
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
@@ -36,7 +36,7 @@ class Progress {
     Clock::time_point next_;
 };
 
-/// "45 s", "3 min", "1 h 20 min": as exact as an estimate is.
+/// Formats a duration, as precisely as estimates are: "45 s", "3 min", "1 h 20 min".
 [[nodiscard]] std::string roughly(double seconds);
 /// "1,234,567"
 [[nodiscard]] std::string withCommas(std::uint64_t number);

@@ -10,7 +10,7 @@
 
 namespace voxtact::app {
 
-/// Standard output as a stream that keeps why it failed.
+/// Standard output as a stream that keeps the reason of a failure.
 class ResultFile::Standard : std::streambuf {
   public:
     Standard() {

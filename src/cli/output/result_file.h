@@ -13,7 +13,7 @@ namespace voxtact::app {
 /// An io::OutputFile, or standard output.
 class ResultFile {
   public:
-    /// "-": standard output, which takes what comes, part by part.
+    /// "-": standard output, written immediately.
     [[nodiscard]] static Result<ResultFile> create(const std::filesystem::path& path);
     ResultFile(ResultFile&&) noexcept;
     ResultFile& operator=(ResultFile&&) noexcept;

@@ -20,7 +20,7 @@ double diagonal(const Box& box) {
     return std::hypot(box.hi[0] - box.lo[0], box.hi[1] - box.lo[1], box.hi[2] - box.lo[2]);
 }
 
-/// Far away, a place leaves nothing of a size.
+/// Far from the origin, rounding loses the size.
 Mat4 withoutPlace(Mat4 pose) {
     std::fill(pose.begin() + 12, pose.begin() + 15, 0.0);
     return pose;
@@ -28,7 +28,7 @@ Mat4 withoutPlace(Mat4 pose) {
 
 /// Returns the note for the sizes of a mesh and a volume, mm.
 std::string noteOf(double mesh, double volume) {
-    // A thousand, give or take what instruments and anatomies differ by.
+    // A factor of 1000, with a tolerance for the sizes of instruments and anatomies.
     constexpr double kStriking = 250;
     if (!(mesh > 0) || !(volume > 0)) {
         return {};
@@ -47,13 +47,13 @@ std::string noteOf(double mesh, double volume) {
 } // namespace
 
 std::string sizeNote(const Box& object, const Mat4& world_from_object, const Grid& volume) {
-    // The corners of a box that is turned are farther apart than its own: too little to matter here.
+    // The bounds of a rotated box are larger than the box, but too little to matter here.
     return noteOf(diagonal(transformBox(withoutPlace(world_from_object), object)),
                   diagonal(transformBox(worldFromTexture(volume), {{0, 0, 0}, {1, 1, 1}})));
 }
 
 std::string unitHint(const Box& bounds) {
-    // Instruments are centimetres to decimetres, bodies up to two metres.
+    // Instruments have centimetres to decimetres, bodies up to two metres.
     constexpr double kShortest = 3;
     constexpr double kLongest = 10000;
     const double length = diagonal(bounds);

@@ -35,7 +35,7 @@ std::atomic<bool> isClosed = false;
 std::atomic<bool> isSilent = false;
 
 void printLine(std::string_view text) {
-    // There is no way to report a failure of standard error.
+    // A failure of standard error cannot be reported.
     static_cast<void>(writeAll(STDERR_FILENO, messageLine(oneLine(text)) + "\n"));
 }
 
@@ -46,7 +46,7 @@ void claimStandardStreams() noexcept {
     std::signal(SIGXFSZ, SIG_IGN);
     for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
         if (::fcntl(file, F_GETFD) == -1 && errno == EBADF) {
-            // Standard output is opened for reading: writing to it still fails, as it should.
+            // Opens standard output for reading only: writes to it must fail.
             static_cast<void>(::open("/dev/null", file == STDERR_FILENO ? O_WRONLY : O_RDONLY));
         }
     }
@@ -89,9 +89,9 @@ void printSummary(std::string_view text) {
 
 void printNoteOnce(const std::string& text) {
     static std::mutex mutex;
-    static std::set<std::string> said;
+    static std::set<std::string> printed;
     const std::lock_guard lock(mutex);
-    if (said.insert(text).second) {
+    if (printed.insert(text).second) {
         printNote(text);
     }
 }

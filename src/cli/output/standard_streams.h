@@ -8,8 +8,8 @@
 
 namespace voxtact::app {
 
-/// Call it first in main(). Standard streams that the caller closed are put on /dev/null, so that no file of ours
-/// takes their number, and a closed pipe or a limit on files' sizes becomes a failed write instead of a signal.
+/// Call first in main(). Opens closed standard streams on /dev/null, so that no file takes their number. Makes a closed
+/// pipe or a file size limit a failed write instead of a signal.
 void claimStandardStreams() noexcept;
 
 [[nodiscard]] bool outputIsTerminal() noexcept;
@@ -26,14 +26,14 @@ void printNote(std::string_view text);
 void printSummary(std::string_view text);
 /// Makes printNote() and printNoteOnce() do nothing.
 void silenceNotes() noexcept;
-/// Like printNote(), but prints a text only once: reading a file again repeats its notes. Any thread.
+/// Like printNote(), but prints each text once: files read again repeat their notes. Thread-safe.
 void printNoteOnce(const std::string& text);
-/// "voxtact touch: text"; `command` may be empty.
+/// Prints "voxtact touch: text" on standard error; `command` may be empty.
 void printError(std::string_view command, std::string_view text);
 /// Reports that memory ran out, without allocating.
 void printOutOfMemory() noexcept;
 
-/// `text` with runs of white space and control characters as one space: what fits in a one-line message.
+/// Replaces runs of white space and control characters by one space, for a one-line message.
 [[nodiscard]] std::string oneLine(std::string_view text);
 
 } // namespace voxtact::app

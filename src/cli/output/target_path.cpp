@@ -42,7 +42,7 @@ Result<void> checkTargetPaths(const std::string& option, const std::filesystem::
                               std::span<const std::string> targets) {
     if (targets.size() > 1 && path.string().find(kPlace) == std::string::npos) {
         return badArgument(option + ": there are " + std::to_string(targets.size()) +
-                           " targets, and each has a file of its own; put {target} into '" + path.string() + "'");
+                           " targets with one file each; put {target} into '" + path.string() + "'");
     }
     std::map<std::string, std::string> files;
     for (const std::string& target : targets) {
@@ -50,7 +50,7 @@ Result<void> checkTargetPaths(const std::string& option, const std::filesystem::
         const auto [there, isNew] = files.emplace(file, target);
         if (!isNew) {
             return badArgument(option + ": the targets " + forMessage(there->second) + " and " + forMessage(target) +
-                               " would both be '" + file + "'; give one of them another name in a file of --targets");
+                               " would both be written to '" + file + "'; rename one of them in a file of --targets");
         }
     }
     return {};

@@ -13,9 +13,9 @@ namespace voxtact::app {
 
 namespace {
 
-/// Returns the end of the longest valid prefix of at most `most` bytes; `text` is valid.
-std::size_t cutBefore(std::string_view text, std::size_t most) {
-    std::size_t end = most;
+/// Returns the end of the longest valid prefix of at most `max` bytes; `text` is valid.
+std::size_t cutBefore(std::string_view text, std::size_t max) {
+    std::size_t end = max;
     while (end > 0 && (static_cast<std::uint8_t>(text[end]) & 0xC0U) == 0x80U) {
         --end;
     }
@@ -69,7 +69,7 @@ std::string messageLine(std::string_view text) {
 
 namespace {
 
-/// Letters left out, added, changed, or swapped with the next one (optimal string alignment).
+/// Returns the number of omitted, added, changed or swapped letters (optimal string alignment).
 std::size_t distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> before;
     std::vector<std::size_t> last;
@@ -91,19 +91,19 @@ std::size_t distance(std::string_view a, std::string_view b) {
 } // namespace
 
 std::string nearestName(std::string_view word, const std::vector<std::string>& names) {
-    constexpr std::size_t kLongest = 64; // no name of ours is nearly so long
+    constexpr std::size_t kLongest = 64; // all our names are much shorter
     constexpr std::size_t kShare = 3;
     std::string nearest;
-    std::size_t least = word.size() / kShare + 1;
+    std::size_t minDistance = word.size() / kShare + 1;
     for (const std::string& name : names) {
         if (word.size() > kLongest) {
             break;
         }
-        // "--label" for "--labels", "--threshold" for "--opacity-threshold": a part is nearer than a misspelling.
+        // "--label" for "--labels", "--threshold" for "--opacity-threshold": prefers a substring to a misspelling.
         const bool isPart = name.starts_with(word) || (word.starts_with("--") && name.ends_with(word.substr(1)));
         const std::size_t far = isPart && word.size() > 3 ? 1 : distance(word, name);
-        if (far < least || (far == least && !nearest.empty() && name.size() < nearest.size())) {
-            least = far;
+        if (far < minDistance || (far == minDistance && !nearest.empty() && name.size() < nearest.size())) {
+            minDistance = far;
             nearest = name;
         }
     }

@@ -8,19 +8,18 @@
 /// Makes user input printable in messages.
 namespace voxtact::app {
 
-/// escaped(), and no longer than a line bears: the middle of a long one is left out.
+/// Like escaped(), but omits the middle of a long text, to fit one line.
 [[nodiscard]] std::string shortened(std::string_view text);
 /// Returns the text in quotes: 'text'.
 [[nodiscard]] std::string forMessage(std::string_view text);
 
-/// The last part of a path, of a folder too; a builtin as it is.
+/// Returns the last part of a path, also of a folder; a builtin unchanged.
 [[nodiscard]] std::string fileNameOf(const std::string& source);
 
-/// A whole message: escaped, with words of more than a few hundred bytes shortened, and not much longer than a screen.
+/// Escapes a whole message, shortens words of more than a few hundred bytes, and limits it to about a screen.
 [[nodiscard]] std::string messageLine(std::string_view text);
 
-/// Returns the name in `names` that is nearest to `word`, by omitted, added, changed or swapped letters; empty if none
-/// is near.
+/// Returns the name in `names` nearest to `word`, by omitted, added, changed or swapped letters; empty if none is near.
 [[nodiscard]] std::string nearestName(std::string_view word, const std::vector<std::string>& names);
 
 } // namespace voxtact::app

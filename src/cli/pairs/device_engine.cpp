@@ -19,7 +19,7 @@ constexpr std::uint64_t kBytesOfContact = 2 * sizeof(ContactResult);
 /// Maximum bytes of volumes kept for later jobs: below the memory of all devices.
 constexpr std::uint64_t kMaxVolumeBytes = std::uint64_t{512} << 20U;
 
-/// A size that the user chose and the device has not is an unusable argument.
+/// A requested size beyond the device is an unusable argument.
 Error blameTable(Error error) {
     if (error.code == ErrorCode::LimitExceeded) {
         return badArgument("--tf-size: " + error.text);
@@ -27,7 +27,7 @@ Error blameTable(Error error) {
     return error;
 }
 
-/// The room for contacts is what the user chose.
+/// Names --max-contacts, which sets the capacity for contacts.
 Error blameContacts(Error error, const PairOptions& options) {
     if (error.code == ErrorCode::LimitExceeded && options.extra.maxContacts) {
         return badArgument("--max-contacts: " + error.text);
@@ -45,7 +45,7 @@ struct DeviceVolume {
     bool isResampled = false;
 };
 
-/// Objects that are uploaded once.
+/// Objects uploaded once.
 struct DeviceScene {
     std::vector<Mesh> meshes;
     std::optional<LabelMap> labels;
@@ -62,7 +62,7 @@ class DeviceEngine : public PairEngine {
     [[nodiscard]] std::string driver() const override { return session_.device.physical().driver; }
     [[nodiscard]] PairAnswer untouched() const override {
         PairAnswer answer;
-        answer.exactness = options_.question == Question::Touch ? Exactness::LowerBound : exactness(method_);
+        answer.exactness = options_.isTouch() ? Exactness::LowerBound : exactness(method_);
         answer.method = method_;
         answer.projection = *options_.method.projection;
         return answer;
@@ -131,7 +131,7 @@ DetectorDesc descOf(const PairOptions& options, CountingMethod method) {
     if (rowOf(*options.method.projection).certified) {
         return CertifiedDesc{.resolution = options.method.resolution.value_or(kDefaultResolution),
                              .outputs = options.extra.outputs(),
-                             .stopAtFirst = options.question == Question::Touch,
+                             .stopAtFirst = options.isTouch(),
                              .counters = options.stats};
     }
     return RasterDesc{.method = method,

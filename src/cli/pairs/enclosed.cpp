@@ -47,10 +47,10 @@ bool isInside(std::span<const std::array<Vec3, 3>> triangles, const Vec3& point)
 } // namespace
 
 OpaqueVoxels someOpaqueVoxels(const VolumeView& volume, std::span<const ControlPoint> points, double threshold) {
-    constexpr std::uint32_t kMostAlongASide = 64;
+    constexpr std::uint32_t kMaxPerSide = 64;
     std::array<std::uint32_t, 3> step{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        step[axis] = (volume.grid.size[axis] + kMostAlongASide - 1) / kMostAlongASide;
+        step[axis] = (volume.grid.size[axis] + kMaxPerSide - 1) / kMaxPerSide;
     }
     const OpaqueIntervals opaque(points, threshold);
     const Mat4 world_from_index = worldFromIndex(volume.grid);
@@ -74,7 +74,7 @@ OpaqueVoxels someOpaqueVoxels(const VolumeView& volume, std::span<const ControlP
 
 std::optional<Vec3> enclosedVoxel(const MeshView& mesh, const Mat4& world_from_object,
                                   const std::vector<Vec3>& voxels) {
-    constexpr std::size_t kMostTried = 16;
+    constexpr std::size_t kMaxTried = 16;
     std::vector<std::array<Vec3, 3>> triangles(mesh.indices.size() / 3);
     Box box{transformPoint(world_from_object, {mesh.positions[0], mesh.positions[1], mesh.positions[2]}), {}};
     box.hi = box.lo;
@@ -99,7 +99,7 @@ std::optional<Vec3> enclosedVoxel(const MeshView& mesh, const Mat4& world_from_o
         return std::hypot(2 * voxel[0] - box.lo[0] - box.hi[0], 2 * voxel[1] - box.lo[1] - box.hi[1],
                           2 * voxel[2] - box.lo[2] - box.hi[2]);
     };
-    const auto tried = near.begin() + static_cast<std::ptrdiff_t>(std::min(kMostTried, near.size()));
+    const auto tried = near.begin() + static_cast<std::ptrdiff_t>(std::min(kMaxTried, near.size()));
     std::ranges::partial_sort(near, tried, {}, fromMiddle);
     const auto found = std::find_if(near.begin(), tried, [&](const Vec3& voxel) { return isInside(triangles, voxel); });
     return found == tried ? std::nullopt : std::optional(*found);

@@ -30,7 +30,7 @@ ExtraAnswers& keptOf(Row& row) {
     return *row.extra;
 }
 
-/// A column, of a row that has answers.
+/// A column of rows with additional answers.
 struct AnswerColumn {
     std::string name;
     std::function<io::Cell(const ExtraAnswers&)> cell;
@@ -40,7 +40,7 @@ io::Cell depthOf(const ExtraAnswers& row) {
     return row.contacts > 0 && row.seen == row.contacts ? io::Cell(rounded(row.depth, 1e6)) : io::Cell();
 }
 
-/// The background says nothing where there is something else.
+/// Returns the touched labels, without the background unless it is the only one.
 std::vector<io::NamedCount> labelsOf(const std::map<std::int32_t, std::string>& names, const ExtraAnswers& row) {
     const bool onlyBackground =
         std::all_of(row.labels.begin(), row.labels.end(), [](const LabelCount& entry) { return entry.label == 0; });
@@ -73,7 +73,7 @@ void keepContacts(const BatchAnswer& answer, std::span<const std::uint32_t> batc
         static_cast<void>(output.keepContact(row, contact));
     }
     output.countContacts(answer.contactsFound);
-    // Each passing fragment is a contact: of a truncated list, the pair's count has the number.
+    // Each passing fragment is a contact: the pair's count is also right for a truncated list.
     if (answer.contactsFound > answer.contacts.size()) {
         for (const std::uint32_t number : batch) {
             Row& row = rows[number];
@@ -118,12 +118,12 @@ Outputs ExtraOptions::outputs() const {
 void addExtraOptions(CLI::App& parser, ExtraOptions& options) {
     addPath(parser, "--contacts", options.contacts, "file of contacts: .csv, .ply, .vtp, .mrk.json");
     addPath(parser, "--triangles", options.triangles, "CSV file of touched triangles");
-    parser.add_flag("--bounds", options.asked.bounds, "add the world box of the fragments");
-    parser.add_flag("--label-counts", options.asked.labels, "add the fragments by label");
+    parser.add_flag("--bounds", options.asked.bounds, "add the world bounding box of the passing fragments");
+    parser.add_flag("--label-counts", options.asked.labels, "add the number of passing fragments per label");
     addFact(parser, factOf("count", "max_depth"), [&options](double depth) { options.maxDepth = depth; });
     addWholeNumber(
         parser, "--max-contacts", [&options](std::uint32_t max) { options.maxContacts = max; }, {.least = 1},
-        "contacts: keep at most N, with a note", kDefaultMaxContacts);
+        "contacts: keep at most N; warn if truncated", kDefaultMaxContacts);
     setRare(parser, "--max-depth");
     setRare(parser, "--max-contacts");
 }

@@ -17,8 +17,8 @@ namespace CLI {
 class App;
 }
 
-/// The outputs of `voxtact count` in addition to the counts, each in one place: its options, its part of a row, its
-/// columns. Their files are in pair_files.h.
+/// Outputs of `voxtact count` in addition to the counts: options, row data and columns. pair_files.h writes their
+/// files.
 namespace voxtact::app {
 
 struct Row;
@@ -28,9 +28,9 @@ constexpr std::uint32_t kDefaultMaxContacts = 1U << 20U;
 
 /// Options of additional outputs.
 struct ExtraOptions {
-    std::filesystem::path triangles; ///< files to write; empty: not asked for
+    std::filesystem::path triangles; ///< files to write; empty: not requested
     std::filesystem::path contacts;
-    Outputs asked; ///< those that a flag alone asks for
+    Outputs asked; ///< outputs requested by a flag alone
     std::optional<double> maxDepth;
     std::optional<std::uint32_t> maxContacts;
 
@@ -42,12 +42,12 @@ void addExtraOptions(CLI::App& parser, ExtraOptions& options);
 
 /// Additional outputs of a row.
 struct ExtraAnswers;
-/// Null: nothing was found.
+/// Null: no results.
 using KeptExtra = std::shared_ptr<ExtraAnswers>;
 
 [[nodiscard]] std::optional<Box> boundsOf(const KeptExtra& kept);
 
-/// Gives the answers of a batch to the rows of its pairs, by the numbers in `batch`, and to the output.
+/// Distributes the answers of a batch to the rows with the indices in `batch`, and to the output.
 void keepExtra(const BatchAnswer& answer, std::span<const std::uint32_t> batch, std::span<Row> rows,
                PairOutput& output);
 
@@ -56,7 +56,7 @@ struct ExtraColumn {
     std::function<io::Cell(const KeptExtra&)> cell;
 };
 
-/// Returns the columns of the requested outputs. `names` of labels must outlive them.
+/// Returns the columns of the requested outputs. `names` must outlive them.
 [[nodiscard]] std::vector<ExtraColumn> extraColumns(const Outputs& outputs,
                                                     const std::map<std::int32_t, std::string>& names);
 

@@ -12,17 +12,17 @@ namespace voxtact::app {
 
 namespace {
 
-/// Longer lists say no more.
-constexpr std::size_t kMostNotes = 5;
-/// Enough to find out in which space most of them are near.
+/// Maximum notes of a kind.
+constexpr std::size_t kMaxNotes = 5;
+/// Sampled poses: enough to find the likely space.
 constexpr std::size_t kSomePoses = 16;
 
 void addSome(const std::vector<std::string>& some, std::vector<std::string>& notes) {
-    for (std::size_t i = 0; i < some.size() && i < kMostNotes; ++i) {
+    for (std::size_t i = 0; i < some.size() && i < kMaxNotes; ++i) {
         notes.push_back(some[i]);
     }
-    if (some.size() > kMostNotes) {
-        notes.push_back("and " + std::to_string(some.size() - kMostNotes) + " more of this kind");
+    if (some.size() > kMaxNotes) {
+        notes.push_back("and " + std::to_string(some.size() - kMaxNotes) + " more notes of this kind");
     }
 }
 
@@ -72,9 +72,8 @@ void FitNotes::addTo(std::vector<std::string>& notes) const {
         const MeshView shape = inputs_.meshes[jobs.jobs[i].mesh].view();
         if (const std::optional<Vec3> inside =
                 first_[i].opaque ? enclosedVoxel(shape, first_[i].poses.front(), *first_[i].opaque) : std::nullopt) {
-            enclosing.push_back(mesh + " encloses an opaque region of " + volume + ", at " + number((*inside)[0]) +
-                                ", " + number((*inside)[1]) + ", " + number((*inside)[2]) +
-                                ", which its surface does not touch");
+            enclosing.push_back(mesh + " encloses but does not touch an opaque region of " + volume + ", at (" +
+                                number((*inside)[0]) + ", " + number((*inside)[1]) + ", " + number((*inside)[2]) + ")");
         }
         if (isFar) {
             places.push_back(farNote({mesh, options_.meshes, inputs_.bounds[jobs.jobs[i].mesh], first_[i].poses,

@@ -11,16 +11,16 @@ namespace voxtact::app {
 /// because of a wrong unit or space; and on a mesh that encloses an opaque region without touching it.
 class FitNotes {
   public:
-    /// Both must outlive it.
+    /// Both arguments must outlive the notes.
     FitNotes(const PairOptions& options, const PairInputs& inputs);
 
-    /// Per job: 0 if no pose brings the mesh's box near the volume; selectPoses() counts.
+    /// Poses per job that bring the mesh's box near the volume; selectPoses() counts them.
     [[nodiscard]] std::vector<std::uint64_t>& near() noexcept { return near_; }
     /// Counts the poses, and checks the size of the mesh at the first pose of each job.
     void look(const Window& window, const Grid& grid, const OpaqueVoxels& opaque);
-    /// A touch, or a distance within the requested one, counts as near, whatever the box.
+    /// Counts a touch, or a distance within the margin, as near, also if the boxes are apart.
     void lookAtAnswers(std::span<const Row> rows);
-    /// Once all windows have been examined.
+    /// Appends the notes. Call after all windows.
     void addTo(std::vector<std::string>& notes) const;
 
   private:
@@ -30,9 +30,9 @@ class FitNotes {
     std::vector<std::uint64_t> poses_;
     std::vector<std::string> sizes_; ///< the note of each job; empty: none
     struct First {
-        std::vector<Mat4> poses; ///< some of the first window, its first one at first
+        std::vector<Mat4> poses; ///< a sample of the first window, beginning with its first pose
         Grid grid;               ///< of the volume
-        OpaqueVoxels opaque;     ///< null: something touches at one of the poses
+        OpaqueVoxels opaque;     ///< null: a pose touches
     };
     std::vector<First> first_; ///< of each job
 };

@@ -20,7 +20,7 @@ struct HostVolume {
     View view;
     OpaqueVoxels opaque;
     std::uint64_t bytes = 0;
-    std::optional<LabelData> labels; ///< instead of those of all volumes
+    std::optional<LabelData> labels; ///< replace the labels of all volumes
     bool isResampled = false;
 };
 
@@ -38,7 +38,7 @@ class HostPairs : public PairEngine {
     }
     [[nodiscard]] PairAnswer untouched() const override {
         PairAnswer answer;
-        answer.exactness = options_.question == Question::Touch ? Exactness::LowerBound : Exactness::Exact;
+        answer.exactness = options_.isTouch() ? Exactness::LowerBound : Exactness::Exact;
         answer.method = CountingMethod::Cpu;
         answer.projection = *options_.method.projection;
         return answer;
@@ -54,9 +54,7 @@ class HostPairs : public PairEngine {
     /// Add the rows of all pairs of the batch. Return the duration in milliseconds.
     [[nodiscard]] Result<double> addTouches(const cpu::Batch& batch, std::span<const Piece> pieces, WindowRows& rows);
     [[nodiscard]] Result<double> addCounts(const cpu::Batch& batch, std::span<const Piece> pieces, WindowRows& rows);
-    [[nodiscard]] Result<double> addDistances(const cpu::Batch& batch, std::span<const Piece> pieces, WindowRows& rows);
-    [[nodiscard]] Result<double> addAreas(const cpu::Batch& batch, std::span<const Piece> pieces, WindowRows& rows);
-    [[nodiscard]] Result<double> addOverlaps(const cpu::Batch& batch, std::span<const Piece> pieces, WindowRows& rows);
+    [[nodiscard]] Result<double> addMeasured(const cpu::Batch& batch, std::span<const Piece> pieces, WindowRows& rows);
 
     const PairOptions& options_;
     const PairInputs& inputs_;
@@ -126,7 +124,7 @@ Result<double> HostPairs::addTouches(const cpu::Batch& batch, std::span<const Pi
     const Result<TouchAnswer> touched = engine_.ask(Touch{.margin = options_.touch.margin.value_or(0),
                                                           .uncertainty = options_.touch.uncertainty,
                                                           .witness = true,
-                                                          .solid = options_.solid},
+                                                          .solid = options_.touch.solid},
                                                     batch);
     VOXTACT_TRY(touched);
     BatchAnswer answer;
@@ -164,56 +162,18 @@ Result<double> HostPairs::addCounts(const cpu::Batch& batch, std::span<const Pie
     return ended(*counted, counted->wallMilliseconds, rows);
 }
 
-Result<double> HostPairs::addDistances(const cpu::Batch& batch, std::span<const Piece> pieces, WindowRows& rows) {
-    Distance question{.tolerance = options_.measure.tolerance,
-                      .maximum = options_.measure.maximum,
-                      .labelsAtAnyOpacity = options_.measure.anyOpacity,
-                      .solid = options_.solid};
-    if (options_.byLabel()) {
-        question.labels = inputs_.measured;
+Result<double> HostPairs::addMeasured(const cpu::Batch& batch, std::span<const Piece> pieces, WindowRows& rows) {
+    const MeasureOptions& measure = options_.measure;
+    std::vector<Setting> settings = measure.settings.all(inputs_.measured);
+    if (!measure.triangles.empty()) {
+        settings.push_back({"triangles", 1.0});
     }
-    const Result<DistanceAnswer> measured = engine_.ask(question, batch);
+    Result<AnswerTables> measured = ask(engine_, options_.question.name, settings, batch);
     VOXTACT_TRY(measured);
     const BatchAnswer pairs = pairsOf(batch);
     addPairs(pairs, pieces, rows);
-    std::ranges::for_each(measured->pairs, [&](const PairDistance& distance) { rows.addDistance(distance); });
-    std::ranges::for_each(measured->labels, [&](const LabelDistance& distance) { rows.addDistance(distance); });
-    return ended(pairs, measured->wallMilliseconds, rows);
-}
-
-Result<double> HostPairs::addAreas(const cpu::Batch& batch, std::span<const Piece> pieces, WindowRows& rows) {
-    Area question{.tolerance = options_.measure.tolerance,
-                  .triangles = !options_.byLabel() && !options_.measure.triangles.empty()};
-    if (options_.byLabel()) {
-        question.labels = inputs_.measured;
-    }
-    const Result<AreaAnswer> measured = engine_.ask(question, batch);
-    VOXTACT_TRY(measured);
-    const BatchAnswer pairs = pairsOf(batch);
-    addPairs(pairs, pieces, rows);
-    std::ranges::for_each(measured->pairs, [&](const PairArea& area) { rows.addArea(area); });
-    std::ranges::for_each(measured->triangles, [&](const TriangleArea& area) { rows.addArea(area); });
-    std::ranges::for_each(measured->labels, [&](const LabelArea& area) { rows.addArea(area); });
-    return ended(pairs, measured->wallMilliseconds, rows);
-}
-
-Result<double> HostPairs::addOverlaps(const cpu::Batch& batch, std::span<const Piece> pieces, WindowRows& rows) {
-    const Overlap question{.tolerance = options_.measure.tolerance,
-                           .bandLimits = options_.measure.bands,
-                           .labels = options_.byLabel() ? inputs_.measured : std::vector<std::int32_t>()};
-    const Result<OverlapAnswer> measured = engine_.ask(question, batch);
-    VOXTACT_TRY(measured);
-    const BatchAnswer pairs = pairsOf(batch);
-    addPairs(pairs, pieces, rows);
-    const auto add = [&](const auto& overlap) { rows.addOverlap(overlap); };
-    if (options_.byLabel()) {
-        std::ranges::for_each(measured->labels, add);
-    } else if (!question.bandLimits.empty()) {
-        std::ranges::for_each(measured->bands, add);
-    } else {
-        std::ranges::for_each(measured->pairs, add);
-    }
-    return ended(pairs, measured->wallMilliseconds, rows);
+    rows.addMeasured(*measured);
+    return ended(pairs, measured->find("totals")->number("wall_milliseconds", 0), rows);
 }
 
 Result<void> HostPairs::answer(const Window& window, WindowRows& rows, const std::function<bool()>& stop) {
@@ -223,11 +183,9 @@ Result<void> HostPairs::answer(const Window& window, WindowRows& rows, const std
         all.push_back({&meshes_[options_.jobs.jobs[item.job].mesh], &volume_->volume, &volume_->transferFunction,
                        item.selected, labels});
     }
-    const auto add = options_.question == Question::Touch      ? &HostPairs::addTouches
-                     : options_.question == Question::Distance ? &HostPairs::addDistances
-                     : options_.question == Question::Area     ? &HostPairs::addAreas
-                     : options_.question == Question::Overlap  ? &HostPairs::addOverlaps
-                                                               : &HostPairs::addCounts;
+    const auto add = options_.isTouch()   ? &HostPairs::addTouches
+                     : options_.isCount() ? &HostPairs::addCounts
+                                          : &HostPairs::addMeasured;
     BatchCutter<cpu::BatchItem> cutter(all);
     std::vector<cpu::BatchItem> items;
     std::vector<Piece> pieces;

@@ -89,7 +89,7 @@ Result<double> answerPairs(const PairOptions& options, PairInputs& inputs, PairE
                            std::vector<std::string>& notes) {
     output.begin(engine.device(), engine.driver());
     const auto [first, end] = options.shard.range(inputs.pairs(options.jobs).value_or(0));
-    Progress progress(options.progress, (std::string("voxtact ") + toString(options.question) + ": pairs").c_str(),
+    Progress progress(options.progress, ("voxtact " + std::string(options.question.name) + ": pairs").c_str(),
                       end - first);
     PairAsker asker(options, inputs, engine);
     for (const PairRange& group : volumeGroups(options, inputs)) {

@@ -11,7 +11,7 @@
 
 namespace voxtact::app {
 
-/// Answers pairs: on the host, or by a method of a device.
+/// Answers pairs, on the host or by a device method.
 class PairEngine {
   public:
     PairEngine() = default;
@@ -21,14 +21,14 @@ class PairEngine {
 
     [[nodiscard]] virtual std::string device() const = 0;
     [[nodiscard]] virtual std::string driver() const = 0;
-    /// The answer for a pair that cannot touch.
+    /// Returns the answer for a pair that cannot touch.
     [[nodiscard]] virtual PairAnswer untouched() const = 0;
-    /// Makes the volume of a job the one that answer() is about; says where it lies.
+    /// Selects the volume of a job for answer(); returns its grid.
     [[nodiscard]] virtual Result<Grid> use(std::uint32_t job) = 0;
-    /// Opaque voxels of the current volume.
+    /// Returns opaque voxels of the current volume.
     [[nodiscard]] virtual OpaqueVoxels opaque() const = 0;
     [[nodiscard]] virtual bool isResampled() const = 0;
-    /// Answers for the selected poses of the window, in order. Ends early, and well, once `stop` says so.
+    /// Answers the selected poses of the window, in order. Ends early without an error when `stop` returns true.
     [[nodiscard]] virtual Result<void> answer(const Window& window, WindowRows& rows,
                                               const std::function<bool()>& stop) = 0;
 };
@@ -36,13 +36,13 @@ class PairEngine {
 /// Returns the jobs of each volume, if consecutive: their pairs in the shard.
 [[nodiscard]] std::vector<PairRange> volumeGroups(const PairOptions& options, const PairInputs& inputs);
 
-/// Puts pairs to an engine.
+/// Sends pairs to an engine.
 class PairAsker {
   public:
-    /// All must outlive it.
+    /// All arguments must outlive the object.
     PairAsker(const PairOptions& options, PairInputs& inputs, PairEngine& engine);
 
-    /// The pairs of a range. Ends early, and well, once the user interrupts. `progress` is called now and then.
+    /// Answers the pairs of a range. An interrupt ends it early without an error. Calls `progress` regularly.
     [[nodiscard]] Result<void> answer(const PairRange& range, PairOutput& output,
                                       const std::function<void()>& progress);
     /// Returns the engine's duration so far.
@@ -66,7 +66,7 @@ class PairAsker {
 [[nodiscard]] Result<double> answerPairs(const PairOptions& options, PairInputs& inputs, PairEngine& engine,
                                          PairOutput& output, std::vector<std::string>& notes);
 
-/// Calls `answer` with an engine on the session's device, or on the host (no Vulkan). Its objects end with it.
+/// Calls `answer` with an engine on the session's device, or on the host (no Vulkan). Destroys the engine afterwards.
 using UseEngine = std::function<Result<void>(PairEngine&)>;
 [[nodiscard]] Result<void> withDeviceEngine(const PairOptions& options, const PairInputs& inputs,
                                             const device::Session& session, CountingMethod method,
@@ -74,20 +74,20 @@ using UseEngine = std::function<Result<void>(PairEngine&)>;
 [[nodiscard]] Result<void> withHostEngine(const PairOptions& options, const PairInputs& inputs,
                                           const UseEngine& answer);
 
-/// Volumes that are ready, kept while a later job has them and there is room: read once, not for each job.
+/// Cache of prepared volumes: keeps a volume while a later job uses it and memory allows.
 template <class Ready> class VolumeShelf {
   public:
-    VolumeShelf(const PairJobs& jobs, std::uint64_t mostBytes) : jobs_(jobs), mostBytes_(mostBytes) {}
+    VolumeShelf(const PairJobs& jobs, std::uint64_t maxBytes) : jobs_(jobs), maxBytes_(maxBytes) {}
 
-    /// The volume of this job, made by `make` (Result<Ready>, where Ready::bytes says how large it is) if it is not
-    /// there.
+    /// Returns the volume of this job, created by `make` (Result<Ready>; Ready::bytes: its size) if it is not
+    /// cached.
     template <class Make> Result<Ready*> get(std::uint32_t job, const Make& make) {
         const std::uint32_t volume = jobs_.jobs[job].volume;
         if (const auto found = ready_.find(volume); found != ready_.end()) {
             return &found->second;
         }
         std::erase_if(ready_, [&](const auto& entry) { return nextUse(entry.first, job) == kNever; });
-        for (std::uint64_t bytes = bytesOf(); !ready_.empty() && bytes > mostBytes_; bytes = bytesOf()) {
+        for (std::uint64_t bytes = bytesOf(); !ready_.empty() && bytes > maxBytes_; bytes = bytesOf()) {
             ready_.erase(std::max_element(ready_.begin(), ready_.end(), [&](const auto& a, const auto& b) {
                 return nextUse(a.first, job) < nextUse(b.first, job);
             }));
@@ -100,7 +100,7 @@ template <class Ready> class VolumeShelf {
   private:
     static constexpr std::size_t kNever = SIZE_MAX;
 
-    /// The next job from this one on that has the volume.
+    /// Returns the next job, from this one on, that uses the volume.
     [[nodiscard]] std::size_t nextUse(std::uint32_t volume, std::size_t job) const {
         while (job < jobs_.jobs.size() && jobs_.jobs[job].volume != volume) {
             ++job;
@@ -116,7 +116,7 @@ template <class Ready> class VolumeShelf {
     }
 
     const PairJobs& jobs_;
-    std::uint64_t mostBytes_;
+    std::uint64_t maxBytes_;
     std::map<std::uint32_t, Ready> ready_;
 };
 

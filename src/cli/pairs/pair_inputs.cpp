@@ -16,11 +16,11 @@ namespace voxtact::app {
 
 namespace {
 
-const char* labelOption(const PairOptions& options) {
-    return options.question == Question::Distance ? "--to" : "--in";
+std::string labelOption(const PairOptions& options) {
+    return optionOf(*labelFact(options.question.name));
 }
 
-/// A label that no voxel has is no error.
+/// Notes labels that no voxel has; they are no error.
 void noteAbsent(const PairOptions& options, const std::vector<LabelWord>& absent) {
     constexpr std::size_t kMaxNamed = 10;
     if (absent.empty()) {
@@ -34,14 +34,12 @@ void noteAbsent(const PairOptions& options, const std::vector<LabelWord>& absent
         names += " and " + std::to_string(absent.size() - kMaxNamed) + " more";
     }
     const bool several = absent.size() > 1;
-    printNote(std::string(labelOption(options)) + ": no voxel of the label map has the label" + (several ? "s " : " ") +
-              names +
-              (options.question == Question::Area      ? "; the area is 0"
-               : options.question == Question::Overlap ? "; the overlap is 0"
-                                                       : "; the distance is infinite"));
+    printNote(labelOption(options) + ": no voxel of the label map has the label" + (several ? "s " : " ") + names +
+              "; the " + std::string(options.question.name) +
+              (options.question.isLeastWorst ? " is infinite" : " is 0"));
 }
 
-/// A number need not be a label of a voxel, a name must be. "all": all labels but 0.
+/// Resolves label words. A number may be absent from the voxels, a name may not. "all": all labels but 0.
 Result<std::vector<std::int32_t>> chosenLabels(const PairOptions& options, const NamedLabels& labels) {
     std::vector<std::int32_t> measured;
     std::vector<LabelWord> absent;
@@ -50,7 +48,7 @@ Result<std::vector<std::int32_t>> chosenLabels(const PairOptions& options, const
             measured.push_back(label);
         }
     };
-    for (const LabelWord& word : options.measure.labels) {
+    for (const LabelWord& word : options.measure.settings.labels) {
         const std::optional<std::int32_t> number = labelNumber(word);
         Result<std::vector<std::int32_t>> meant = labelsOf(labels, word, labelOption(options));
         if (!meant.ok() && word == "all") {
@@ -64,7 +62,7 @@ Result<std::vector<std::int32_t>> chosenLabels(const PairOptions& options, const
         std::ranges::for_each(*meant, add);
     }
     if (measured.empty()) {
-        return badArgument(std::string(labelOption(options)) + " all: the label map has no label but 0");
+        return badArgument(labelOption(options) + " all: the label map has no label but 0");
     }
     VOXTACT_TRY(checkMeasuredLabels(measured));
     noteAbsent(options, absent);
@@ -89,15 +87,15 @@ Result<void> readLabels(const PairOptions& options, PairInputs& inputs) {
     return {};
 }
 
-/// Refuses holes, or fills them.
+/// Fills holes, or refuses a mesh with holes.
 Result<void> makeSolid(const PairOptions& options, const std::string& source, MeshData& mesh) {
     Result<SolidFacts> facts = checkSolid(mesh.view());
     VOXTACT_TRY(facts);
     const std::string name = forMessage(fileNameOf(source));
     if (facts->holes > 0 && !options.measure.fillHoles) {
         return badArgument("--mesh: " + name + " has " + holesText(*facts) +
-                           ": only a closed mesh has an inside; close it" +
-                           (options.question == Question::Overlap ? ", or add --fill-holes" : ""));
+                           ": only a closed mesh has an inside; close the mesh" +
+                           (options.question.needsSolid ? ", or add --fill-holes" : ""));
     }
     if (facts->holes > 0) {
         Result<FilledMesh> filled = fillHoles(mesh.view());
@@ -110,7 +108,7 @@ Result<void> makeSolid(const PairOptions& options, const std::string& source, Me
         VOXTACT_TRY(facts);
     }
     if (facts->inward) {
-        printNote(name + ": its triangles face inwards; its inside is the same");
+        printNote(name + ": its triangles face inwards; this does not change its inside");
     }
     return {};
 }
@@ -139,12 +137,11 @@ Result<PairInputs> readPairInputs(const PairOptions& options) {
     for (const std::string& source : options.jobs.meshes) {
         Result<MeshData> mesh = loadMesh(source, options.meshes);
         VOXTACT_TRY(mesh);
-        if (mesh->deflection > 0 && options.question == Question::Touch && !isForHost(options)) {
-            return badArgument(
-                "--mesh: the touch of " + forMessage(fileNameOf(source)) +
-                ", a curved surface, is answered by the host engine; leave out --on device and --device");
+        if (mesh->deflection > 0 && options.isTouch() && !isForHost(options)) {
+            return badArgument("--mesh: the touch of " + forMessage(fileNameOf(source)) +
+                               ", a curved surface, needs the host engine; leave out --on device and --device");
         }
-        if (options.question == Question::Overlap || options.solid) {
+        if (options.isSolid()) {
             VOXTACT_TRY(makeSolid(options, source, *mesh));
         }
         const Result<MeshFacts> facts = checkMesh(mesh->view());
@@ -195,7 +192,7 @@ Result<void> checkViewport(const VkExtent2D& size, const VkExtent2D& max, const 
     const auto text = [](const VkExtent2D& extent) {
         return std::to_string(extent.width) + "x" + std::to_string(extent.height);
     };
-    return badArgument("--size: " + text(size) + " is beyond what " + who + " can do, " + text(max));
+    return badArgument("--size: " + text(size) + " exceeds the limit of " + who + ", " + text(max));
 }
 
 } // namespace voxtact::app

@@ -7,7 +7,7 @@ namespace voxtact::app {
 
 namespace {
 
-/// The number of `value` in `list`, where it is added if it is new.
+/// Returns the index of `value` in `list`; appends a new value.
 std::uint32_t numberIn(std::vector<std::string>& list, const std::string& value) {
     const auto found = std::ranges::find(list, value);
     const auto number = static_cast<std::uint32_t>(found - list.begin());

@@ -11,11 +11,11 @@ namespace voxtact::app {
 
 namespace {
 
-/// On the device, on the host, and unpacked.
+/// Copies of outputs in flight: on the device, on the host, and unpacked.
 constexpr std::uint64_t kBytesOfTriangle = sizeof(std::uint32_t) * 2 + sizeof(TouchedTriangle);
 constexpr std::uint64_t kBytesOfLabel = sizeof(std::uint32_t) * 2 + sizeof(LabelCount);
 
-/// Refuses an option that would change nothing.
+/// Refuses an option without effect.
 Result<void> checkUsed(bool given, const char* option, bool used, const std::string& why) {
     return given && !used ? badArgument(option + (": " + why)) : Result<void>();
 }
@@ -31,13 +31,13 @@ Result<void> checkEngine(const PairOptions& options) {
     }
     if (!isForHost(options) && (options.touch.margin || options.touch.uncertainty)) {
         return badArgument(std::string(options.touch.margin ? "--margin" : "--uncertainty") +
-                           " is answered by the host engine; leave out --on device and --device");
+                           " needs the host engine; leave out --on device and --device");
     }
-    if (!isForHost(options) && options.solid) {
-        return badArgument("--solid is answered by the host engine; leave out --on device and --device");
+    if (!isForHost(options) && options.touch.solid) {
+        return badArgument("--solid needs the host engine; leave out --on device and --device");
     }
     if (isForHost(options) && options.method.filter == Filter::Hardware) {
-        return badArgument("--filter hardware: the host engine has no device's sampler; leave out --filter");
+        return badArgument("--filter hardware: the host engine has no hardware sampler; leave out --filter");
     }
     if (!options.method.count) {
         return {};
@@ -50,25 +50,17 @@ Result<void> checkEngine(const PairOptions& options) {
     return {};
 }
 
-/// Refuses options of `distance` and `area` that exclude each other.
+/// Refuses measuring options that exclude each other.
 Result<void> checkMeasure(const PairOptions& options) {
     const MeasureOptions& measure = options.measure;
-    const char* const labels = options.question == Question::Distance ? "--to" : "--in";
-    const std::string byLabel = std::string("not with ") + labels + "; leave out one of the two";
-    for (const Result<void>& used :
-         {checkUsed(options.byLabel(), labels, !options.labels.path.empty(), "it needs a label map; add --labels"),
-          checkUsed(measure.anyOpacity, "--any-opacity", options.byLabel(), "it needs labels; add --to"),
-          checkUsed(!measure.witness.empty(), "--witness", !options.byLabel(), byLabel),
-          checkUsed(!measure.triangles.empty(), "--triangles", !options.byLabel(), byLabel),
-          checkUsed(!measure.bands.empty(), "--bands", !options.byLabel(), byLabel),
-          checkUsed(options.solid, "--solid", !options.byLabel(), byLabel)}) {
-        if (!used.ok()) {
-            return used;
-        }
-    }
+    VOXTACT_TRY(checkSettings(measure.settings, !options.labels.path.empty()));
+    const std::string byLabel =
+        options.byLabel() ? "not with " + optionOf(*labelFact(options.question.name)) + "; leave out one of the two"
+                          : "";
+    VOXTACT_TRY(checkUsed(!measure.witness.empty(), "--witness", !options.byLabel(), byLabel));
+    VOXTACT_TRY(checkUsed(!measure.triangles.empty(), "--triangles", !options.byLabel(), byLabel));
     if (!measure.witness.empty() && !isWitnessEnding(measure.witness)) {
-        return badArgument("--witness: the ending of '" + measure.witness.string() +
-                           "' names no format; it must be .csv or .ply");
+        return badArgument("--witness: the ending of '" + measure.witness.string() + "' must be .csv or .ply");
     }
     return {};
 }
@@ -78,7 +70,7 @@ Result<void> checkCertified(const MethodOptions& method) {
         return {};
     }
     if (method.filter == Filter::Hardware) {
-        return badArgument("--filter hardware: --projection certified filters exact only");
+        return badArgument("--filter hardware: --projection certified needs --filter exact");
     }
     if (!canBeCertified(method)) {
         return badArgument(std::string("--method ") + toString(*method.count) + ": --projection certified needs " +
@@ -93,15 +85,15 @@ Result<void> checkCertified(const MethodOptions& method) {
 Result<void> checkProjection(const PairOptions& options) {
     const Projection projection = *options.method.projection;
     const std::string name = toString(projection);
-    const std::string camera = "the projection " + name + " has no camera; add --projection view or two-view";
+    const std::string camera = "the projection " + name + " has no camera; use --projection view or two-view";
     const ViewOptions& view = options.view;
     for (const Result<void>& used :
          {checkUsed(view.sizeGiven, "--size", usesView(projection), camera),
           checkUsed(!view.camera.empty(), "--camera", usesView(projection), camera),
           checkUsed(options.method.samplesPerVoxel.has_value(), "--samples-per-voxel", rowOf(projection).voxelGrid,
-                    "it is for --projection dominant-axis, not for " + name),
+                    "it applies to --projection dominant-axis, not to " + name),
           checkUsed(options.method.resolution.has_value(), "--resolution", rowOf(projection).certified,
-                    "it is for --projection certified, not for " + name)}) {
+                    "it applies to --projection certified, not to " + name)}) {
         if (!used.ok()) {
             return used;
         }
@@ -115,30 +107,35 @@ Result<void> checkStats(const PairOptions& options) {
         return {};
     }
     if (isForHost(options)) {
-        return badArgument("--stats: the host engine counts no passes of a device; leave out one of the two");
+        return badArgument("--stats: the host engine has no device passes; leave out one of the two");
     }
     return rowOf(*options.method.projection).certified
                ? Result<void>()
-               : badArgument(std::string("--stats is about the passes of --projection certified, not of ") +
+               : badArgument(std::string("--stats: it counts passes of --projection certified, not of ") +
                              toString(*options.method.projection) + "; leave it out");
+}
+
+/// Returns the options whose output has labels.
+std::string neededForLabels(const NamedQuestion& question) {
+    if (question.name == "count") {
+        return "--label-counts or --contacts";
+    }
+    return optionOf(*labelFact(question.name)) + (hasWitness(question) ? " or --witness" : "");
 }
 
 Result<void> checkExtra(const PairOptions& options) {
     const ExtraOptions& extra = options.extra;
     const bool contacts = !extra.contacts.empty();
     const bool labels = !options.labels.path.empty();
-    const char* const needed = options.question == Question::Count      ? "--label-counts or --contacts"
-                               : options.question == Question::Distance ? "--to or --witness"
-                                                                        : "--in";
-    const bool isLabelled = options.question == Question::Touch ? !options.touch.uncertainty
-                                                                : extra.asked.labels || contacts || options.byLabel() ||
-                                                                      !options.measure.witness.empty();
+    const bool isLabelled =
+        options.isTouch() ? !options.touch.uncertainty
+                          : extra.asked.labels || contacts || options.byLabel() || !options.measure.witness.empty();
     if (labels && !isLabelled) {
-        return badArgument(options.question == Question::Touch
-                               ? std::string("--labels: --uncertainty gives no witness point; leave out one of the two")
-                               : "--labels: no output has labels; add " + std::string(needed));
+        return badArgument(options.isTouch()
+                               ? "--labels: --uncertainty gives no witness point; leave out one of the two"
+                               : "--labels: no output has labels; add " + neededForLabels(options.question));
     }
-    const std::string needsContacts = "it is about contacts; add --contacts";
+    const std::string needsContacts = "it needs contacts; add --contacts";
     const std::string needsLabels = "it needs a label map; add --labels";
     for (const Result<void>& used :
          {checkUsed(extra.maxDepth.has_value(), "--max-depth", contacts, needsContacts),
@@ -150,8 +147,7 @@ Result<void> checkExtra(const PairOptions& options) {
         }
     }
     if (contacts && !isContactEnding(extra.contacts)) {
-        return badArgument("--contacts: the ending of '" + extra.contacts.string() + "' names no format; it must be " +
-                           contactEndings());
+        return badArgument("--contacts: the ending of '" + extra.contacts.string() + "' must be " + contactEndings());
     }
     return {};
 }
@@ -170,11 +166,6 @@ bool isForHost(const PairOptions& options) {
     const bool forDevice = options.engine == "device" || !options.device.wanted.empty() || options.device.validate ||
                            options.stats || options.method.filter == Filter::Hardware;
     return options.engine == "host" || !forDevice;
-}
-
-const char* toString(Question question) noexcept {
-    constexpr std::array kNames{"touch", "count", "distance", "area", "overlap"};
-    return kNames[static_cast<std::size_t>(question)];
 }
 
 Result<void> resolveOptions(PairOptions& options) {
@@ -196,11 +187,11 @@ Result<void> resolveOptions(PairOptions& options) {
 }
 
 std::uint64_t maxTriangles(const PairInputs& inputs) {
-    std::uint64_t most = 0;
+    std::uint64_t max = 0;
     for (const MeshData& mesh : inputs.meshes) {
-        most = std::max<std::uint64_t>(most, mesh.indices.size() / 3);
+        max = std::max<std::uint64_t>(max, mesh.indices.size() / 3);
     }
-    return most;
+    return max;
 }
 
 std::uint32_t pairsPerBatch(const PairOptions& options, const PairInputs& inputs, std::uint32_t copies) {

@@ -20,7 +20,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Text columns fit their contents: their widths are set after a screen of rows, or more if they come fast, but after a
+/// Text columns fit their contents: their widths are fixed after a screen of rows, or more if rows come fast, within a
 /// short time.
 constexpr auto kTextWait = std::chrono::milliseconds(300);
 constexpr auto kLongTextWait = std::chrono::seconds(3);
@@ -47,7 +47,7 @@ struct PairOutput::State {
     io::Format format;
     PairColumns columns;
     bool held;
-    TextStream text{}; ///< on its way to standard output
+    TextStream text{}; ///< pending for standard output
     std::optional<ResultFile> table{};
     std::optional<ResultFile> contactsFile{};
     SideFile sideFacts = sideFile(options);
@@ -92,10 +92,10 @@ Result<void> PairOutput::State::writeHeld() {
     return writeRows(all);
 }
 
-/// Hands on what has been written.
+/// Writes the pending text to standard output.
 Result<void> PairOutput::State::pass() {
     if (table) {
-        // A disk that is full now will not have room for the rest.
+        // After a failure, as on a full disk, the rest would fail, too.
         return table->stream() ? Result<void>() : table->close();
     }
     if (held) {
@@ -171,15 +171,15 @@ void PairOutput::addTriangle(const Row& row, const TouchedTriangle& touched) {
     }
 }
 
-void PairOutput::addTriangleArea(const Row& row, const TriangleArea& area) {
+void PairOutput::addTriangle(const Row& row, const AnswerTable& triangles, std::size_t number) {
     if (state_->side) {
-        writeTriangleArea(state_->side->stream(), state_->options, row, area);
+        writeTriangle(state_->side->stream(), state_->options, row, triangles, number);
     }
 }
 
-void PairOutput::addWitnesses(const Row& row, const WitnessPoints& closest, double upper) {
+void PairOutput::addWitnesses(const Row& row) {
     if (state_->side) {
-        state_->closest.push_back({closest, upper, row.job, row.pose});
+        state_->closest.push_back({row.measured.front(), row.job, row.pose});
     }
 }
 
@@ -228,7 +228,7 @@ Result<void> PairOutput::finish(double wallMilliseconds) {
     if (state.side && state.sideFacts.comesLast) {
         writeWitnesses(state.side->stream(), state.options, state.inputs, state.closest);
     }
-    // Files are renamed after all are written. Standard output cannot be undone, and may fail.
+    // Renames files after all are written: standard output may fail and cannot be undone.
     for (ResultFile* const file : state.files()) {
         VOXTACT_TRY(file->close());
     }
@@ -269,7 +269,7 @@ std::string PairOutput::noteOfContacts() const {
         return {};
     }
     return state.options.extra.contacts.string() + ": " + std::to_string(state.contacts.size()) + " of " +
-           std::to_string(state.contactsFound) + " contacts were kept (--max-contacts " +
+           std::to_string(state.contactsFound) + " contacts are kept (--max-contacts " +
            std::to_string(state.options.extra.contactRoom()) + ")";
 }
 
@@ -281,16 +281,13 @@ std::string PairOutput::summary() const {
     return state_->summary.text(state_->options);
 }
 
-std::string OpenBounds::note(Question question) const {
+std::string OpenBounds::note(std::string_view question) const {
     if (rounding + budget == 0) {
         return {};
     }
-    return "the bounds of " + std::to_string(rounding + budget) + " of " + std::to_string(all) +
-           (question == Question::Distance ? " distances"
-            : question == Question::Area   ? " areas"
-                                           : " overlaps") +
-           " are farther apart than the tolerance: rounding leaves " + std::to_string(rounding) + " undecided, " +
-           std::to_string(budget) + " reached the iteration limit";
+    return "the bounds of " + std::to_string(rounding + budget) + " of " + std::to_string(all) + " " +
+           std::string(question) + "s are farther apart than the tolerance: rounding leaves " +
+           std::to_string(rounding) + " undecided, " + std::to_string(budget) + " reached the iteration limit";
 }
 
 } // namespace voxtact::app

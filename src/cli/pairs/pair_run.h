@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "cli/options/label_words.h"
+#include "cli/options/given_settings.h"
 #include "cli/options/open_session.h"
 #include "cli/options/shard.h"
 #include "cli/options/shared_options.h"
@@ -11,51 +11,42 @@
 #include "cli/pairs/pair_jobs.h"
 #include "cli/pairs/pose_source.h"
 #include "device/engine/pair_pipeline.h"
-#include "voxtact/area.h"
 #include "voxtact/data.h"
-#include "voxtact/distance.h"
-#include "voxtact/motion.h"
-#include "voxtact/overlap.h"
+#include "voxtact/named_questions.h"
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-/// The subcommands that ask one question about pairs of a mesh at a pose and a volume: their options, inputs and rows.
+/// Options, inputs and rows of the pair subcommands. A pair is a mesh at a pose and a volume.
 namespace voxtact::app {
 
-enum class Question { Touch, Count, Distance, Area, Overlap };
-/// The subcommand: "touch", "count", "distance", "area", "overlap".
-[[nodiscard]] const char* toString(Question question) noexcept;
-
 constexpr std::uint32_t kDefaultBatch = 1024;
-/// Enough to keep a device busy while the host records; more only costs memory.
+/// Batches in flight: keeps a device busy while the host records; more would only cost memory.
 constexpr std::uint32_t kSubmissionsInFlight = 3;
 
 /// Options of `touch` alone.
 struct TouchOptions {
     std::optional<double> margin; ///< mm
     std::optional<PoseTolerance> uncertainty;
+    bool solid = false; ///< the inside of the mesh, too
 };
 
-/// Options of `distance`, `area` and `overlap`.
+/// Options of the measuring questions.
 struct MeasureOptions {
-    double tolerance = 0;                                     ///< mm, mm^2 or mm^3
-    double maximum = std::numeric_limits<double>::infinity(); ///< mm
-    std::filesystem::path witness;                            ///< output file; empty: none
-    std::filesystem::path triangles;                          ///< output file; empty: none
-    std::vector<LabelWord> labels;                            ///< a row each; empty: one row a pair
-    bool anyOpacity = false;                                  ///< the whole label, opaque or not
-    std::vector<double> bands;                                ///< limits of values, ascending: a row a band
-    bool fillHoles = false;                                   ///< of meshes
+    GivenSettings settings;
+    std::filesystem::path witness{};   ///< output file; empty: none
+    std::filesystem::path triangles{}; ///< output file; empty: none
+    bool fillHoles = false;            ///< of meshes
 };
 
 struct PairOptions {
-    explicit PairOptions(Question asked) : question(asked) {}
+    explicit PairOptions(const NamedQuestion& asked) : question(asked), measure{.settings = {.question = asked.name}} {}
 
-    Question question;
-    std::vector<std::string> volumes; ///< as given; the jobs have each once
+    NamedQuestion question;
+    std::vector<std::string> volumes; ///< as given; the jobs list each once
     MeshOptions meshes;
     PairJobs jobs; ///< set by resolveOptions()
     TransferFunctionOptions transferFunction;
@@ -74,15 +65,19 @@ struct PairOptions {
     bool timing = false;
     bool stats = false;
     bool summary = false;
-    bool solid = false; ///< the inside of the mesh, too
     std::optional<std::uint32_t> batch;
-    std::uint32_t threads = 0; ///< 0: one for each processor
+    std::uint32_t threads = 0; ///< 0: one per processor
 
-    [[nodiscard]] bool measures() const { return question >= Question::Distance; }
-    /// True if a row is a label of a pair.
-    [[nodiscard]] bool byLabel() const { return !measure.labels.empty(); }
+    [[nodiscard]] bool isTouch() const { return question.name == "touch"; }
+    [[nodiscard]] bool isCount() const { return question.name == "count"; }
+    /// Returns true if each row is a label of a pair.
+    [[nodiscard]] bool byLabel() const { return !measure.settings.labels.empty(); }
+    /// Returns true if the inside of the meshes counts.
+    [[nodiscard]] bool isSolid() const {
+        return question.needsSolid || touch.solid || measure.settings.number("solid") == 1;
+    }
     [[nodiscard]] std::uint32_t maxPairs() const { return batch.value_or(kDefaultBatch); }
-    /// True if the index of the pose does not identify a pair.
+    /// Returns true if the pose index does not identify a pair.
     [[nodiscard]] bool hasSeveralJobs() const { return jobs.jobs.size() > 1; }
 };
 
@@ -95,21 +90,18 @@ struct PairInputs {
     std::optional<Mat4> clip_from_world;
     std::optional<LabelData> labels;
     std::map<std::int32_t, std::string> labelNames;
-    std::vector<std::int32_t> measured; ///< numbers of MeasureOptions::labels; each once
+    std::vector<std::int32_t> measured; ///< numbers of GivenSettings::labels; each once
     std::vector<char> isResampled;      ///< of each volume, once it has been read
 
     /// Number of pairs of all jobs; empty while standard input is open.
     [[nodiscard]] std::optional<std::uint64_t> pairs(const PairJobs& jobs) const;
 };
 
-/// Bounds of a distance, an area or a volume, rounded outward to the digits that are printed.
+/// A row of an answer's table: a pair, or one of its labels or bands.
 struct Measured {
-    std::int32_t label = 0; ///< with PairOptions::byLabel()
-    double lower = 0;       ///< mm, mm^2 or mm^3
-    double upper = 0;
-    Containment inside{};   ///< of `overlap`
-    Bounds solid{};         ///< of `overlap`: volume of the mesh
-    std::uint32_t band = 0; ///< with MeasureOptions::bands
+    std::shared_ptr<const AnswerTable> table;
+    std::size_t row = 0;
+    Bounds bounds; ///< as printed
 };
 
 /// The answer for one pair.
@@ -136,16 +128,14 @@ struct KeptBounds {
     std::uint64_t pose = 0;
 };
 
-/// The witness points of a pair's distance.
+/// A row with the witness points of a pair.
 struct KeptClosest {
-    WitnessPoints closest;
-    double upper = 0; ///< mm
+    Measured measured;
     std::uint32_t job = 0;
     std::uint64_t pose = 0;
 };
 
-/// Decides what the options leave open: afterwards there are a projection and jobs. Refuses options that exclude each
-/// other.
+/// Completes the options: sets projection and jobs. Refuses options that exclude each other.
 [[nodiscard]] Result<void> resolveOptions(PairOptions& options);
 
 /// Returns true if a method and filter support the projection certified.
@@ -157,8 +147,8 @@ struct KeptClosest {
 /// Reads meshes, poses, camera, control points and labels; volumes are read one at a time, later.
 [[nodiscard]] Result<PairInputs> readPairInputs(const PairOptions& options);
 
-/// The label map on the grid of a volume, where a row is a label and the map is on a part of that grid; none where the
-/// map serves as it is. Refuses other grids where a row is a label.
+/// Returns the label map on the grid of a volume, if rows are labels and the map covers a part of that grid; empty if
+/// the map fits unchanged. Refuses other grids if rows are labels.
 [[nodiscard]] Result<std::optional<LabelData>> measuredLabels(const PairOptions& options, const PairInputs& inputs,
                                                               const Grid& volume);
 
@@ -181,16 +171,16 @@ struct VolumeSettings {
 /// Bytes for the outputs of all batches in flight.
 constexpr std::uint64_t kMaxOutputBytes = std::uint64_t{256} << 20U;
 
-/// Triangles of the largest mesh.
+/// Returns the number of triangles of the largest mesh.
 [[nodiscard]] std::uint64_t maxTriangles(const PairInputs& inputs);
 /// Returns the number of pairs per batch or submission: --batch, or fewer if their outputs would take too much memory.
 /// `copies` of them are in flight.
 [[nodiscard]] std::uint32_t pairsPerBatch(const PairOptions& options, const PairInputs& inputs, std::uint32_t copies);
 
-/// The name of a label; its number where it has none.
+/// Returns the name of a label, or its number if it has none.
 [[nodiscard]] std::string labelName(const PairInputs& inputs, std::int32_t label);
 
-/// Runs a subcommand of this kind.
+/// Runs a pair subcommand.
 [[nodiscard]] Outcome runPairs(PairOptions options);
 
 } // namespace voxtact::app

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/pairs/pair_table.h"
 
+#include "cli/files/pair_files.h"
 #include "cli/output/text_for_messages.h"
 #include "cli/version.h"
 
@@ -11,7 +12,7 @@ namespace voxtact::app {
 
 namespace {
 
-/// A nanometre: more digits say nothing.
+/// Steps per mm: more digits than a nanometre have no meaning.
 constexpr double kParts = 1e6;
 
 io::Cell verdictOf(const PairAnswer& answer) {
@@ -24,15 +25,39 @@ io::Cell pathCell(const std::string& path) {
     return io::PathName{path, fileNameOf(path)};
 }
 
-/// A certified no counts nothing, whatever an early exit would have left out.
+/// The count of a certified no is exactly 0, also after an early exit.
 bool isExact(const PairAnswer& answer) {
     const bool isNo = !answer.hit && !answer.possible && answer.projection == Projection::Certified;
     return answer.exactness == Exactness::Exact || (answer.exactness == Exactness::LowerBound && isNo);
 }
 
-/// A cell's integer cannot be negative, which a label can.
+/// A label may be negative, which the integer of a cell cannot.
 io::Cell labelCell(std::int32_t label) {
     return label < 0 ? io::Cell(static_cast<double>(label)) : io::Cell(static_cast<std::uint64_t>(label));
+}
+
+/// Returns the name of a number among comma-separated ones.
+std::string choiceOf(std::string_view choices, std::size_t number) {
+    for (; number > 0; --number) {
+        choices.remove_prefix(choices.find(',') + 1);
+    }
+    return std::string(choices.substr(0, choices.find(',')));
+}
+
+io::Cell cellOf(const AnswerTable& table, const Column& column, std::size_t row, const PairOptions& options) {
+    const double value = table.number(column, row);
+    if (column.printed != Printed::Plain) {
+        const Bounds bounds = roundedOutward({value, value}, options);
+        return column.printed == Printed::Down ? bounds.lower : bounds.upper;
+    }
+    if (*column.choices != '\0') {
+        return choiceOf(column.choices, static_cast<std::size_t>(value));
+    }
+    if (column.type == ColumnType::Double) {
+        return std::isfinite(value) ? io::Cell(value) : io::Cell();
+    }
+    return column.type == ColumnType::Int32 ? labelCell(static_cast<std::int32_t>(value))
+                                            : io::Cell(static_cast<std::uint64_t>(value));
 }
 
 } // namespace
@@ -42,11 +67,11 @@ PairColumns::PairColumns(const PairOptions& options, const PairInputs& inputs) {
     columns_ = {{"pose", [](const Line& line) { return line.row->pose; }},
                 {"mesh", [&](const Line& line) { return pathCell(jobs.meshes[jobs.jobs[line.row->job].mesh]); }},
                 {"volume", [&](const Line& line) { return pathCell(jobs.volumes[jobs.jobs[line.row->job].volume]); }}};
-    if (options.measures()) {
+    if (options.question.measures) {
         addMeasured(options, inputs);
     } else {
         columns_.push_back({"touch", [](const Line& line) { return verdictOf(line.row->timed.answer); }});
-        options.question == Question::Touch ? addTouch(inputs) : addCount(options, inputs);
+        options.isTouch() ? addTouch(inputs) : addCount(options, inputs);
     }
     if (options.resample) {
         columns_.push_back({kResampledColumn, [&](const Line& line) {
@@ -61,7 +86,7 @@ PairColumns::PairColumns(const PairOptions& options, const PairInputs& inputs) {
         columns_.push_back(
             {"wall_ms", [](const Line& line) { return rounded(line.row->timed.wallMilliseconds, 1e6); }});
     }
-    for (const Column& column : columns_) {
+    for (const PrintedColumn& column : columns_) {
         names_.push_back(column.name);
     }
 }
@@ -107,31 +132,18 @@ void PairColumns::addCount(const PairOptions& options, const PairInputs& inputs)
 }
 
 void PairColumns::addMeasured(const PairOptions& options, const PairInputs& inputs) {
-    if (options.byLabel()) {
-        columns_.push_back({"label", [](const Line& line) { return labelCell(line.measured->label); }});
-        if (!inputs.labelNames.empty()) {
-            columns_.push_back(
-                {"label_name", [&inputs](const Line& line) { return labelName(inputs, line.measured->label); }});
+    for (const Column& column : options.question.table(options.measure.settings.table())->columns) {
+        if (column.printed == Printed::No) {
+            continue;
         }
-    }
-    if (!options.measure.bands.empty()) {
-        const std::vector<double>& limits = options.measure.bands;
-        columns_.push_back({"from", [&limits](const Line& line) {
-                                const std::uint32_t band = line.measured->band;
-                                return band == 0 ? io::Cell() : io::Cell(limits[band - 1]);
+        columns_.push_back({column.name, [&column, &options](const Line& line) {
+                                return cellOf(*line.measured->table, column, line.measured->row, options);
                             }});
-        columns_.push_back({"below", [&limits](const Line& line) {
-                                const std::uint32_t band = line.measured->band;
-                                return band == limits.size() ? io::Cell() : io::Cell(limits[band]);
-                            }});
-    }
-    columns_.push_back({"lower", [](const Line& line) { return line.measured->lower; }});
-    columns_.push_back({"upper", [](const Line& line) { return line.measured->upper; }});
-    if (options.question == Question::Overlap && options.measure.bands.empty()) {
-        columns_.push_back({"inside", [](const Line& line) { return std::string(toString(line.measured->inside)); }});
-        if (!options.byLabel()) {
-            columns_.push_back({"solid_lower", [](const Line& line) { return line.measured->solid.lower; }});
-            columns_.push_back({"solid_upper", [](const Line& line) { return line.measured->solid.upper; }});
+        if (column.type == ColumnType::Int32 && !inputs.labelNames.empty()) {
+            columns_.push_back({"label_name", [&column, &inputs](const Line& line) {
+                                    const double label = line.measured->table->number(column, line.measured->row);
+                                    return labelName(inputs, static_cast<std::int32_t>(label));
+                                }});
         }
     }
 }
@@ -171,21 +183,21 @@ io::NamedCells statsCells(const CertifiedCounters& counters) {
             {"cells_left", number(counters.cellsLeft)},
             {"rounds", number(counters.rounds)},
             {"room", number(counters.room)},
-            {"most_clusters", number(counters.mostClusters)},
-            {"most_runs", number(counters.mostRuns)},
-            {"most_parts", number(counters.mostParts)},
-            {"most_cells", number(counters.mostCells)},
-            {"most_open", number(counters.mostOpen)},
-            {"most_left", number(counters.mostLeft)},
-            {"most_looks", number(counters.mostLooks)},
-            {"most_looks_left", number(counters.mostLooksLeft)}};
+            {"peak_clusters", number(counters.peakClusters)},
+            {"peak_runs", number(counters.peakRuns)},
+            {"peak_parts", number(counters.peakParts)},
+            {"peak_cells", number(counters.peakCells)},
+            {"peak_open", number(counters.peakOpen)},
+            {"peak_left", number(counters.peakLeft)},
+            {"peak_tests", number(counters.peakTests)},
+            {"peak_tests_left", number(counters.peakTestsLeft)}};
 }
 
 io::NamedCells pairFacts(const PairOptions& options, const std::string& device, const std::string& driver) {
     io::NamedCells facts{{"voxtact", programVersion()},
                          {"device", device},
                          {"driver", driver},
-                         {"question", std::string(toString(options.question))},
+                         {"question", std::string(options.question.name)},
                          {"opacity_threshold", options.transferFunction.threshold}};
     const auto addGiven = [&facts](const char* name, const std::string& text) {
         if (!text.empty()) {
@@ -203,13 +215,13 @@ io::NamedCells pairFacts(const PairOptions& options, const std::string& device, 
         facts.emplace_back("uncertainty_mm", options.touch.uncertainty->distance);
         facts.emplace_back("uncertainty_degrees", options.touch.uncertainty->angle);
     }
-    if (options.measures()) {
-        facts.emplace_back("tolerance", options.measure.tolerance);
+    for (const Fact& fact : kFacts) {
+        if (options.question.measures && fact.question == options.question.name && fact.kind == FactKind::Number &&
+            !fact.option.empty()) {
+            facts.emplace_back(fact.name, options.measure.settings.number(fact.name));
+        }
     }
-    if (options.question == Question::Distance) {
-        facts.emplace_back("max", options.measure.maximum);
-    }
-    if (options.question == Question::Count) {
+    if (options.isCount()) {
         facts.emplace_back("resolution", options.method.resolution.value_or(kDefaultResolution));
     }
     return facts;

@@ -8,22 +8,22 @@
 
 namespace voxtact::app {
 
-/// The columns of the output of a subcommand about pairs.
+/// Columns of the pair subcommands.
 class PairColumns {
   public:
-    /// Both must outlive it.
+    /// Both arguments must outlive the table.
     PairColumns(const PairOptions& options, const PairInputs& inputs);
 
-    /// Returns a table of these rows, which refers to them and to this object.
+    /// Returns a table of `rows`, which references them and this object.
     [[nodiscard]] io::Table table(std::span<const Row> rows) const;
 
   private:
-    /// A row of the table: a pair, or one of its labels.
+    /// A row of the table: a pair, or one of its labels or bands.
     struct Line {
         const Row* row;
         const Measured* measured; ///< null: none
     };
-    struct Column {
+    struct PrintedColumn {
         std::string name;
         std::function<io::Cell(const Line&)> cell;
     };
@@ -31,13 +31,13 @@ class PairColumns {
     void addCount(const PairOptions& options, const PairInputs& inputs);
     void addMeasured(const PairOptions& options, const PairInputs& inputs);
 
-    std::vector<Column> columns_;
+    std::vector<PrintedColumn> columns_;
     std::vector<std::string> names_;
 };
 
-/// The cells of --stats.
+/// Returns the cells of --stats.
 [[nodiscard]] io::NamedCells statsCells(const CertifiedCounters& counters);
-/// The JSON members before the rows: program, engine, and the question with its values.
+/// Returns the JSON members before the rows: program, engine, and the question with its settings.
 [[nodiscard]] io::NamedCells pairFacts(const PairOptions& options, const std::string& device,
                                        const std::string& driver);
 

@@ -15,15 +15,15 @@ namespace voxtact::app {
 
 namespace {
 
-/// Coordinates of fragments are floats, and devices interpolate them with fewer bits than that: parts of the size of
-/// the box, and of the numbers that a coordinate is the sum of.
+/// Rounding of fragment coordinates: floats, which devices interpolate with even fewer bits. Relative to the box size
+/// and to the terms of a coordinate.
 constexpr double kOfTheBox = 1.0 / 64;
 constexpr double kOfTheNumbers = 1.0 / (1U << 18U);
 
 /// The volume in texture space.
 constexpr Box kVolume{{0, 0, 0}, {1, 1, 1}};
 
-/// A box in texture space that holds the fragments of an object, however they are rounded.
+/// Returns a box in texture space that holds all fragments of an object, also after rounding.
 Box fragmentsOf(const Mat4& texture_from_object, const Box& object) {
     Box box = transformBox(texture_from_object, object);
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -33,7 +33,7 @@ Box fragmentsOf(const Mat4& texture_from_object, const Box& object) {
                 std::abs(texture_from_object[4 * c + axis]) * std::max(std::abs(object.lo[c]), std::abs(object.hi[c]));
         }
         const double margin = kOfTheBox * (box.hi[axis] - box.lo[axis] + 1) + kOfTheNumbers * numbers;
-        // Unknown for too large numbers.
+        // Overflow: unknown.
         const bool known = margin < kInfinity;
         box.lo[axis] = known ? box.lo[axis] - margin : -kInfinity;
         box.hi[axis] = known ? box.hi[axis] + margin : kInfinity;
@@ -61,7 +61,7 @@ Result<std::vector<std::uint32_t>> nearPoses(std::span<const Mat4> world_from_ob
 
 PairWindows::PairWindows(const PairOptions& options, PairInputs& inputs, const PairRange& range)
     : inputs_(inputs), job_(range.begin), end_(range.end), first_(range.first), left_(range.count),
-      // Who writes the poses as we read them may want the answers as soon.
+      // A process that streams poses may wait for their answers.
       pace_(kWindowPairs, inputs.pairs(options.jobs).has_value()) {
     for (; first_ > 0 && job_ < end_; ++job_) {
         const std::uint64_t poses = inputs.poses->count().value_or(UINT64_MAX);
@@ -110,7 +110,7 @@ Result<void> PairWindows::next(Window& window) {
 Result<void> selectPoses(const PairOptions& options, const PairInputs& inputs, const Grid& grid, Window& window,
                          std::vector<std::uint64_t>& near) {
     const Result<Mat4> texture_from_world = textureFromWorld(grid);
-    const bool all = options.timing || options.measures() || options.touch.margin || options.touch.uncertainty ||
+    const bool all = options.timing || options.question.measures || options.touch.margin || options.touch.uncertainty ||
                      options.method.boundary == Boundary::Clamp || !texture_from_world.ok();
     for (WindowItem& item : window.items) {
         std::vector<std::uint32_t> everyPose(item.poses.size());

@@ -7,11 +7,10 @@
 /// Splits the pairs of the jobs into bounded windows, and selects those that an engine answers.
 namespace voxtact::app {
 
-/// Pairs per window: few compared with a device's pairs per second; 8 MB of matrices.
+/// Pairs per window: a device answers them in a short time; 8 MB of matrices.
 constexpr std::uint32_t kWindowPairs = 1U << 16U;
 
-/// Some poses of a job. The object-space mesh at those that are `selected` comes near the volume; at the others nothing
-/// can touch.
+/// Poses of a job. At `selected` poses the mesh comes near the volume; at the others it cannot touch.
 struct WindowItem {
     std::uint32_t job = 0;
     std::uint64_t firstPose = 0;
@@ -25,8 +24,8 @@ struct Window {
     std::size_t pairs = 0; ///< of all items, selected or not
 };
 
-/// At most `count` pairs of jobs with one volume, in order: from pair `first` of the job `begin`, up to the job `end`.
-/// `first` is 0 if the number of poses is unknown.
+/// At most `count` consecutive pairs of jobs with one volume, from pair `first` of job `begin` to job `end`. `first` is
+/// 0 if the number of poses is unknown.
 struct PairRange {
     std::uint32_t begin = 0;
     std::uint32_t end = 0;
@@ -34,29 +33,28 @@ struct PairRange {
     std::uint64_t count = UINT64_MAX;
 };
 
-/// Goes through the pairs of a range.
+/// Iterates over the pairs of a range.
 class PairWindows {
   public:
-    /// Both must outlive it.
+    /// Both arguments must outlive the object.
     PairWindows(const PairOptions& options, PairInputs& inputs, const PairRange& range);
 
-    /// The next window, without pairs when all are out.
+    /// Returns the next window; without pairs at the end.
     [[nodiscard]] Result<void> next(Window& window);
 
   private:
     PairInputs& inputs_;
     std::uint32_t job_;
     std::uint32_t end_;
-    std::uint64_t first_;               ///< pose of the job with which it begins
-    std::uint64_t left_;                ///< pairs
-    std::optional<std::uint64_t> pose_; ///< the next one of the job; nothing: it has not begun
-    BatchPace pace_;                    ///< of a source that may be slow
-    Result<void> failure_;              ///< of the poses: told once those before it have been given
+    std::uint64_t first_;               ///< first pose of the first job
+    std::uint64_t left_;                ///< remaining pairs
+    std::optional<std::uint64_t> pose_; ///< next pose of the job; empty: not begun
+    BatchPace pace_;                    ///< for slow pose sources
+    Result<void> failure_;              ///< error of the pose source, returned after all earlier poses
 };
 
-/// Selects of each item the poses at which the mesh's box comes near the volume: all poses where that does not follow
-/// (--boundary clamp, and questions about more than a touch), and with --timing, which is about every pair. Adds to
-/// near[job] how many come near.
+/// Selects the poses of each item that bring the mesh's box near the volume. Selects all poses if a far mesh may count
+/// (--boundary clamp, measuring questions), and with --timing. Adds the number of near poses to near[job].
 [[nodiscard]] Result<void> selectPoses(const PairOptions& options, const PairInputs& inputs, const Grid& grid,
                                        Window& window, std::vector<std::uint64_t>& near);
 

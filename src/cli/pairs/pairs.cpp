@@ -28,7 +28,7 @@ Result<void> checkPairPaths(const PairOptions& options) {
         inputPaths(options.volumes, options.meshes, options.transferFunction, options.view, options.labels));
 }
 
-/// Uses the host, or the device of the options.
+/// Runs on the host, or on the device of the options.
 Result<void> withEngine(const PairOptions& options, const PairInputs& inputs, std::vector<std::string>& notes,
                         std::shared_ptr<const device::ValidationMessages>& messages, const UseEngine& answer) {
     if (isForHost(options)) {
@@ -44,13 +44,13 @@ Result<void> withEngine(const PairOptions& options, const PairInputs& inputs, st
     if (options.threads > 0) {
         notes.push_back("--threads " + std::to_string(options.threads) + " is not used: the device engine answers");
     }
-    if (options.question == Question::Touch && !options.labels.path.empty()) {
+    if (options.isTouch() && !options.labels.path.empty()) {
         notes.emplace_back("--labels is not used: the device engine gives no witness point");
     }
     Result<void> answered = withDeviceEngine(options, inputs, *session, method, answer);
     const device::VulkanDevice& device = session->device;
     if (options.timing && (!device.hasTimestamps() || device.missedTimestamps())) {
-        notes.emplace_back("--timing: gpu_ms is empty where the device has no timestamps, or they went "
+        notes.emplace_back("--timing: gpu_ms is empty if the device has no timestamps, or they went "
                            "backwards or did not move");
     }
     return answered;
@@ -66,7 +66,7 @@ Outcome interruptedOutcome(const PairOptions& options, PairOutput& output) {
 /// Prints the notes and the summary of a run that succeeded.
 void printEnd(const PairOptions& options, const PairOutput& output, std::vector<std::string> notes) {
     notes.push_back(output.noteOfContacts());
-    notes.push_back(output.openBounds().note(options.question));
+    notes.push_back(output.openBounds().note(options.question.name));
     for (const std::string& note : notes) {
         if (!note.empty()) {
             printNote(note);

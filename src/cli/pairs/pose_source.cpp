@@ -14,12 +14,12 @@ namespace voxtact::app {
 
 namespace {
 
-/// 8 MB of matrices.
-constexpr std::size_t kMostKept = std::size_t{1} << 16U;
+/// Maximum poses in memory: 8 MB of matrices.
+constexpr std::size_t kMaxKept = std::size_t{1} << 16U;
 
 constexpr const char* kStandardInput = "standard input";
 
-/// An error in a file's contents is no invalid argument.
+/// Errors in the contents of a file are run-time failures, not invalid arguments.
 Error fileFault(Error error) {
     error.code = error.code == ErrorCode::InvalidArgument ? ErrorCode::Format : error.code;
     return error;
@@ -62,8 +62,8 @@ Result<void> PoseSource::takeStock() {
     std::uint64_t count = 0;
     bool more = true;
     while (more) {
-        // Kept poses are not read again; standard input cannot be.
-        const Result<bool> read = reader->read(kMostKept, part);
+        // Kept poses need no second read, which standard input does not allow.
+        const Result<bool> read = reader->read(kMaxKept, part);
         VOXTACT_TRY(read);
         more = *read;
         if (!standardInput && (more || count > 0)) {
@@ -92,25 +92,25 @@ Result<void> PoseSource::begin(std::uint64_t from) {
     }
     std::vector<Mat4> passed;
     while (given_ < from) {
-        VOXTACT_TRY(next(std::min<std::uint64_t>(kMostKept, from - given_), passed));
+        VOXTACT_TRY(next(std::min<std::uint64_t>(kMaxKept, from - given_), passed));
     }
     return {};
 }
 
-Result<void> PoseSource::next(std::size_t most, std::vector<Mat4>& poses) {
+Result<void> PoseSource::next(std::size_t max, std::vector<Mat4>& poses) {
     poses.clear();
     if (isKept_) {
         const std::span<const Mat4> rest = std::span<const Mat4>(kept_).subspan(static_cast<std::size_t>(given_));
-        const std::span<const Mat4> taken = rest.first(std::min(most, rest.size()));
+        const std::span<const Mat4> taken = rest.first(std::min(max, rest.size()));
         poses.assign(taken.begin(), taken.end());
-    } else if (const Result<bool> read = reader_->read(most, poses); !read.ok()) {
+    } else if (const Result<bool> read = reader_->read(max, poses); !read.ok()) {
         return fileFault(read.error());
     }
     for (Mat4& pose : poses) {
         pose = lpsFrom(space_, pose);
     }
     given_ += poses.size();
-    if (count_ && (given_ > *count_ || (poses.size() < most && given_ < *count_))) {
+    if (count_ && (given_ > *count_ || (poses.size() < max && given_ < *count_))) {
         return Error{ErrorCode::File, 0, "cannot read '" + path_.string() + "': it changed while it was read"};
     }
     return {};

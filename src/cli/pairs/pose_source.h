@@ -12,12 +12,11 @@
 
 namespace voxtact::app {
 
-/// The poses of a file or of standard input, some at a time and as often as they are needed: memory does not grow with
-/// their number.
+/// Reads the poses of a file or of standard input in parts, as often as needed. Memory does not grow with their number.
 class PoseSource {
   public:
-    /// Opens poses. Without a path: the identity. "-": standard input, read on demand, or at once if it is needed
-    /// `again`. A file is read completely first, so that its errors precede all answers. Poses are returned in LPS.
+    /// Opens poses. Without a path: the identity. "-": standard input, read on demand, or completely if `again`. Checks
+    /// a file completely first, so that its errors precede all answers. Returns poses in LPS.
     [[nodiscard]] static Result<PoseSource> open(const ViewOptions& how, bool again);
 
     /// Returns the number of poses, if known.
@@ -25,8 +24,8 @@ class PoseSource {
 
     /// Starts at pose `from`, which must be below count(), or 0. Moving forward reads nothing twice.
     [[nodiscard]] Result<void> begin(std::uint64_t from = 0);
-    /// Replaces `poses` by the next ones, at most `most`; empty at the end.
-    [[nodiscard]] Result<void> next(std::size_t most, std::vector<Mat4>& poses);
+    /// Replaces `poses` by the next poses, at most `max`; empty at the end.
+    [[nodiscard]] Result<void> next(std::size_t max, std::vector<Mat4>& poses);
 
   private:
     PoseSource() = default;

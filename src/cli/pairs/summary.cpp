@@ -12,7 +12,7 @@ void Summary::add(const PairOptions& options, std::span<const Row> rows) {
         ++pairs_;
         yes_ += answer.hit ? 1 : 0;
         undecided_ += answer.possible && !answer.hit ? 1 : 0;
-        if (options.question == Question::Count && answer.count > (worst_ ? worst_->timed.answer.count : 0)) {
+        if (options.isCount() && answer.count > (worst_ ? worst_->timed.answer.count : 0)) {
             worst_ = row;
         }
         for (const Measured& measured : row.measured) {
@@ -22,19 +22,20 @@ void Summary::add(const PairOptions& options, std::span<const Row> rows) {
 }
 
 void Summary::addMeasured(const PairOptions& options, const Row& row, const Measured& measured) {
+    const Bounds& bounds = measured.bounds;
     const bool worse =
-        options.question == Question::Distance
-            ? measured.lower < extreme_.lower || (measured.lower == extreme_.lower && measured.upper < extreme_.upper)
-            : measured.upper > extreme_.upper;
+        options.question.isLeastWorst
+            ? bounds.lower < extreme_.lower || (bounds.lower == extreme_.lower && bounds.upper < extreme_.upper)
+            : bounds.upper > extreme_.upper;
     if (!worst_ || worse) {
         worst_ = row;
-        extreme_ = measured;
+        extreme_ = bounds;
     }
 }
 
 std::string Summary::text(const PairOptions& options) const {
     std::string out = std::to_string(pairs_) + (pairs_ == 1 ? " pair" : " pairs");
-    if (!options.measures()) {
+    if (!options.question.measures) {
         out += ": " + std::to_string(yes_) + " touch, " + std::to_string(pairs_ - yes_ - undecided_) + " do not, " +
                std::to_string(undecided_) + " undecided";
     }
@@ -42,18 +43,12 @@ std::string Summary::text(const PairOptions& options) const {
         return out;
     }
     const Job& job = options.jobs.jobs[worst_->job];
-    if (options.question == Question::Count) {
+    if (options.isCount()) {
         out += "; maximum count " + std::to_string(worst_->timed.answer.count);
     } else {
-        const bool isArea = options.question == Question::Area;
-        const bool isDistance = options.question == Question::Distance;
-        out += std::string(isDistance ? "; minimum distance "
-                           : isArea   ? "; maximum area "
-                                      : "; maximum overlap ") +
-               number(extreme_.lower) + " to " + number(extreme_.upper) +
-               (isDistance ? " mm"
-                : isArea   ? " mm^2"
-                           : " mm^3");
+        out += (options.question.isLeastWorst ? "; minimum " : "; maximum ") + std::string(options.question.name) +
+               " " + number(extreme_.lower) + " to " + number(extreme_.upper) + " " +
+               worst_->measured.front().table->column("lower")->unit;
     }
     return out + " at pose " + std::to_string(worst_->pose) + " of " + fileNameOf(options.jobs.meshes[job.mesh]) +
            " against " + fileNameOf(options.jobs.volumes[job.volume]);

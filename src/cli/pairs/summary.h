@@ -8,11 +8,11 @@
 
 namespace voxtact::app {
 
-/// The line of --summary: totals, and the worst pair.
+/// Totals and the worst pair, for --summary.
 class Summary {
   public:
     void add(const PairOptions& options, std::span<const Row> rows);
-    /// One line.
+    /// Returns the line of --summary.
     [[nodiscard]] std::string text(const PairOptions& options) const;
 
   private:
@@ -21,9 +21,9 @@ class Summary {
     std::uint64_t pairs_ = 0;
     std::uint64_t yes_ = 0;
     std::uint64_t undecided_ = 0;
-    /// The first pair with the largest count, the smallest upper bound of the distance, or the largest of the area.
+    /// The first pair with the largest count, or the worst bounds.
     std::optional<Row> worst_;
-    Measured extreme_; ///< of that pair
+    Bounds extreme_; ///< of that pair
 };
 
 } // namespace voxtact::app

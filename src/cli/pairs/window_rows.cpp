@@ -25,8 +25,8 @@ WindowRows::WindowRows(const PairOptions& options, const Window& window, const P
 void WindowRows::add(const device::TimedAnswer& timed) {
     const std::size_t row = firstRows_[timed.item] + window_.items[timed.item].numbers[timed.pose];
     rows_[row].timed = timed;
-    if (options_.question == Question::Touch) {
-        // Methods that cannot stop early have counted them all.
+    if (options_.isTouch()) {
+        // Methods without an early exit count all fragments.
         PairAnswer& answer = rows_[row].timed.answer;
         answer.count = std::min<std::uint64_t>(answer.count, 1);
         answer.exactness = Exactness::LowerBound;
@@ -44,72 +44,34 @@ void WindowRows::addWitness(std::uint32_t pair, const WitnessPoint& witness) {
     rows_[batch_[pair]].witness = witness;
 }
 
-/// Touches at distance 0, and possible touches, for the notes and the summary.
-template <class Distance> void WindowRows::keepDistance(const Distance& distance, std::int32_t label) {
-    Row& row = rows_[batch_[distance.pair]];
-    const Bounds bounds = roundedOutward(distance.bounds);
-    row.measured.push_back({label, bounds.lower, bounds.upper});
-    row.timed.answer.hit = row.timed.answer.hit || distance.bounds.upper == 0;
-    row.timed.answer.possible = row.timed.answer.possible || distance.bounds.lower == 0;
-    output_.countEnd(distance.end == StopReason::Rounding, distance.end == StopReason::Budget);
-}
-
-template <class Area> void WindowRows::keepArea(const Area& area, std::int32_t label) {
-    Row& row = rows_[batch_[area.pair]];
-    const Bounds bounds = roundedOutward(area.bounds, options_.measure.tolerance);
-    row.measured.push_back({label, bounds.lower, bounds.upper});
-    row.timed.answer.hit = row.timed.answer.hit || area.bounds.lower > 0;
-    row.timed.answer.possible = row.timed.answer.possible || area.bounds.upper > 0;
-    output_.countEnd(area.end == StopReason::Rounding, area.end == StopReason::Budget);
-}
-
-void WindowRows::addDistance(const PairDistance& distance) {
-    keepDistance(distance, 0);
-    if (distance.closest) {
-        output_.addWitnesses(rows_[batch_[distance.pair]], *distance.closest, distance.bounds.upper);
+void WindowRows::addMeasured(const AnswerTables& answer) {
+    const auto table = std::make_shared<const AnswerTable>(*answer.find(options_.measure.settings.table()));
+    const Column* const pair = table->column("pair");
+    for (std::size_t i = 0; i < table->rows; ++i) {
+        Row& row = rows_[batch_[pair == nullptr ? i : static_cast<std::size_t>(table->number(*pair, i))]];
+        const Bounds bounds{table->number("lower", i), table->number("upper", i)};
+        row.measured.push_back({table, i, roundedOutward(bounds, options_)});
+        // A distance of 0 is a touch, and so is any other measure above 0.
+        const bool isLeast = options_.question.isLeastWorst;
+        PairAnswer& touch = row.timed.answer;
+        touch.hit = touch.hit || (isLeast ? bounds.upper == 0 : bounds.lower > 0);
+        touch.possible = touch.possible || (isLeast ? bounds.lower == 0 : bounds.upper > 0);
+        const auto end = static_cast<StopReason>(table->number("end", i));
+        output_.countEnd(end == StopReason::Rounding, end == StopReason::Budget);
     }
-}
-
-void WindowRows::addDistance(const LabelDistance& distance) {
-    keepDistance(distance, distance.label);
-}
-
-void WindowRows::addArea(const PairArea& area) {
-    keepArea(area, 0);
-}
-
-void WindowRows::addArea(const LabelArea& area) {
-    keepArea(area, area.label);
-}
-
-void WindowRows::addArea(const TriangleArea& area) {
-    output_.addTriangleArea(rows_[batch_[area.pair]], area);
-}
-
-/// Pairs with an opaque region inside, and possible ones.
-template <class Overlap> Measured& WindowRows::keepOverlap(const Overlap& overlap) {
-    Row& row = rows_[batch_[overlap.pair]];
-    const Bounds bounds = roundedOutward(overlap.bounds, options_.measure.tolerance);
-    output_.countEnd(overlap.end == StopReason::Rounding, overlap.end == StopReason::Budget);
-    row.timed.answer.hit = row.timed.answer.hit || overlap.bounds.lower > 0;
-    row.timed.answer.possible = row.timed.answer.possible || overlap.bounds.upper > 0;
-    return row.measured.emplace_back(Measured{.lower = bounds.lower, .upper = bounds.upper});
-}
-
-void WindowRows::addOverlap(const PairOverlap& overlap) {
-    Measured& kept = keepOverlap(overlap);
-    kept.inside = overlap.inside;
-    kept.solid = roundedOutward(overlap.solid, options_.measure.tolerance);
-}
-
-void WindowRows::addOverlap(const LabelOverlap& overlap) {
-    Measured& kept = keepOverlap(overlap);
-    kept.label = overlap.label;
-    kept.inside = overlap.inside;
-}
-
-void WindowRows::addOverlap(const BandOverlap& overlap) {
-    keepOverlap(overlap).band = overlap.band;
+    if (!options_.measure.witness.empty()) {
+        for (std::size_t i = 0; i < table->rows; ++i) {
+            if (table->number("witness", i) == 1) {
+                output_.addWitnesses(rows_[batch_[i]]);
+            }
+        }
+    }
+    if (!options_.measure.triangles.empty()) {
+        const AnswerTable& triangles = *answer.find("triangles");
+        for (std::size_t i = 0; i < triangles.rows; ++i) {
+            output_.addTriangle(rows_[batch_[static_cast<std::size_t>(triangles.number("pair", i))]], triangles, i);
+        }
+    }
 }
 
 void WindowRows::endBatch(const BatchAnswer& answer) {

@@ -38,13 +38,13 @@ Example:
 Result<void> checkOptions(const PlanOptions& options) {
     if (options.volumes.size() > 1 || options.meshes.sources.size() > 1) {
         return badArgument(std::string(options.volumes.size() > 1 ? "--volume" : "--mesh") +
-                           ": a plan is about one; leave out the others");
+                           ": a plan needs exactly one; leave out the others");
     }
     if (options.targets.empty() && options.targetLabels.empty() && options.targetFile.empty()) {
-        return badArgument("--target, --target-label, --targets: one of them must say where the tip goes");
+        return badArgument("no target; add --target, --target-label or --targets");
     }
     if (options.axis && std::hypot((*options.axis)[0], (*options.axis)[1], (*options.axis)[2]) == 0) {
-        return badArgument("--axis: 0,0,0 points nowhere; it goes from the tip to where the instrument is held");
+        return badArgument("--axis: 0,0,0 has no direction; give the direction from the tip to the handle");
     }
     if (!options.surface.empty() && options.surface.extension() != ".ply") {
         return badArgument("--surface: the ending of '" + options.surface.string() + "' must be .ply");
@@ -56,7 +56,7 @@ Result<void> checkOptions(const PlanOptions& options) {
         return badArgument(std::string(options.sizeGiven         ? "--size"
                                        : options.device.validate ? "--validate"
                                                                  : "--device") +
-                           ": it is about a picture; give --picture, or leave it out");
+                           ": it applies to a picture; add --picture, or leave it out");
     }
     if (!options.report.empty() && options.report.extension() != ".html") {
         return badArgument("--report: the ending of '" + options.report.string() + "' must be .html");
@@ -78,7 +78,7 @@ Result<std::vector<TargetPlan>> planAll(const PlanOptions& options, const PlanIn
     return plans;
 }
 
-/// `png`: the content of the picture; empty: there is none.
+/// `png`: the picture; empty: none.
 Result<void> deliverPlans(const PlanOptions& options, const PlanInputs& inputs, const std::vector<TargetPlan>& plans,
                           const std::string& png) {
     std::vector<Delivery> deliveries;
@@ -113,7 +113,7 @@ Result<void> deliverPlans(const PlanOptions& options, const PlanInputs& inputs, 
     return deliverAll(std::move(deliveries));
 }
 
-/// The device of a picture, from before the work on: without one there is no need to begin.
+/// The device of a picture. Opened before the work, so that a missing device fails early.
 class PictureDevice {
   public:
     [[nodiscard]] Result<void> open(const PlanOptions& options) {
@@ -129,7 +129,7 @@ class PictureDevice {
         session_ = std::make_unique<device::Session>(std::move(*session));
         return checkViewport(options.half, session_->context.maxViewport(), "the device");
     }
-    /// The picture's file.
+    /// Returns the picture as a PNG file.
     [[nodiscard]] Result<std::string> paint(const PlanOptions& options, const PlanInputs& inputs,
                                             std::span<const TargetPlan> plans) const {
         const Result<Picture> picture = planPicture(options, inputs, plans, *session_);
@@ -139,7 +139,7 @@ class PictureDevice {
                                  [](std::uint32_t /*done*/, std::uint32_t /*rows*/) { return !interrupted(); }));
         return png.str();
     }
-    /// Validation messages, complete once the device is closed.
+    /// Closes the device and returns its validation messages.
     [[nodiscard]] Outcome close() {
         session_.reset();
         return messages_ ? validationOutcome(*messages_) : Outcome();
@@ -228,7 +228,7 @@ std::vector<NamedPath> planWrites(const PlanOptions& options) {
 Result<double> planMaximum(const PlanOptions& options, const PlanInputs& inputs) {
     constexpr std::uint32_t kDirections = 642;
     constexpr std::size_t kTargets = 16;
-    constexpr double kFar = 1000; // mm, of which no body is
+    constexpr double kFar = 1000; // mm: larger than any body
     constexpr double kStep = 5;   // mm
     Result<cpu::HostEngine> engine = cpu::HostEngine::create(options.threads);
     VOXTACT_TRY(engine);
@@ -237,7 +237,7 @@ Result<double> planMaximum(const PlanOptions& options, const PlanInputs& inputs)
     task.maximum = kFar;
     task.surface.entries = std::min(task.surface.entries, kDirections);
     task.triangleDistances = false;
-    double most = 0;
+    double max = 0;
     for (std::size_t i = 0; i < std::min(inputs.targets.size(), kTargets); ++i) {
         task.target = inputs.targets[i].at;
         const Result<PlanAnswer> answer = engine->ask(task);
@@ -245,10 +245,10 @@ Result<double> planMaximum(const PlanOptions& options, const PlanInputs& inputs)
             return answer.error();
         }
         for (const PlannedPath& path : answer.ok() ? answer->paths : std::vector<PlannedPath>()) {
-            most = std::max(most, path.clearance.upper < kFar ? path.clearance.lower : 0);
+            max = std::max(max, path.clearance.upper < kFar ? path.clearance.lower : 0);
         }
     }
-    return std::max(kDefaultPlanMaximum, std::ceil(2 * most / kStep) * kStep);
+    return std::max(kDefaultPlanMaximum, std::ceil(2 * max / kStep) * kStep);
 }
 
 Result<TargetPlan> planFor(const PlanInputs& inputs, std::size_t target, cpu::HostEngine& engine) {
@@ -260,7 +260,7 @@ Result<TargetPlan> planFor(const PlanInputs& inputs, std::size_t target, cpu::Ho
         if (inputs.targets.size() > 1) {
             error.text = "target " + forMessage(inputs.targets[target].name) + ": " + error.text;
         }
-        for (const std::string& note : inputs.notes) { // they may be why
+        for (const std::string& note : inputs.notes) { // they may explain the error
             error.text += "; " + note;
         }
         return error;

@@ -9,7 +9,7 @@
 
 namespace voxtact::app {
 
-/// Unsafe red, undecided grey, safe by its distance.
+/// Returns the colour of a path: unsafe red, undecided grey, safe by its distance.
 [[nodiscard]] inline Rgb planColour(const PlannedPath& path, double maximum) {
     constexpr Rgb kUnsafe{178, 34, 34};
     constexpr Rgb kPossible{128, 128, 128};
@@ -18,7 +18,7 @@ namespace voxtact::app {
                                               : viridis(path.clearance.lower / maximum);
 }
 
-/// The largest float that is no larger.
+/// Returns the largest float not above `value`.
 [[nodiscard]] inline float roundedDown(double value) {
     const auto nearest = static_cast<float>(value);
     return nearest > value ? std::nextafter(nearest, -std::numeric_limits<float>::infinity()) : nearest;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The files of which each target has one.
+// Files per target.
 #include "cli/output/target_path.h"
 #include "cli/plan/plan_run.h"
 #include "core/base/try.h"
@@ -12,7 +12,7 @@ namespace voxtact::app {
 
 namespace {
 
-/// Checks the limits of the format before the work.
+/// Checks ending and format limits before the work.
 Result<void> checkHeatMap(const std::filesystem::path& path, const Grid& grid) {
     if (volumeEnding(path).empty()) {
         return badArgument("--heat-map: the ending of '" + path.string() + "' must be .nii.gz, .nii, .nrrd or .mha");

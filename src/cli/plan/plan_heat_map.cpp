@@ -18,7 +18,7 @@ namespace {
 
 using glm::dvec3;
 
-/// Three corners, in voxels: voxel i is all within half of i.
+/// Corners of a triangle, in voxels: voxel i reaches from i - 0.5 to i + 0.5.
 using Corners = std::array<dvec3, 3>;
 
 /// Returns true if a triangle meets a voxel, or rounding decides: tests all separating axes, those of the voxel, the
@@ -52,7 +52,7 @@ bool meets(const Corners& triangle, const dvec3& voxel) {
     return true;
 }
 
-/// Minimum over the paths through each voxel.
+/// Collects the minimum over the paths through each voxel.
 class HeatMap {
   public:
     explicit HeatMap(const Grid& grid)

@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kAvoidOpacity = "--avoid-opacity";
 
-/// `who`: the option with its points. Notes go to `notes`.
+/// `who`: the option with the points. Appends to `notes`.
 Result<cpu::TransferFunction> functionOf(const TransferFunctionOptions& how, const ValueRange& domain,
                                          const ValueRange& values, const std::string& source, std::string_view who,
                                          std::vector<std::string>& notes) {
@@ -31,7 +31,7 @@ Result<cpu::TransferFunction> functionOf(const TransferFunctionOptions& how, con
     return cpu::TransferFunction::create(desc);
 }
 
-/// `kept`: where the image itself goes; null: it is not needed.
+/// `kept`: receives the image; null: not needed.
 Result<PlanVolume> readVolumeOf(const std::string& source, bool resample, const TransferFunctionOptions& how,
                                 std::string_view who, std::vector<std::string>& notes,
                                 std::optional<VolumeData>* kept = nullptr) {
@@ -54,7 +54,7 @@ Result<PlanVolume> readVolumeOf(const std::string& source, bool resample, const 
 
 constexpr std::string_view kNeedle = "builtin:needle";
 
-/// The sizes of a builtin needle, which is round here; any other is a mesh.
+/// Reads the instrument: a builtin needle becomes a cylinder, any other source a mesh.
 Result<void> readInstrument(const PlanOptions& options, PlanInputs& inputs) {
     const std::string& source = options.meshes.sources.front();
     Result<MeshData> data = loadMesh(source, options.meshes);
@@ -62,7 +62,7 @@ Result<void> readInstrument(const PlanOptions& options, PlanInputs& inputs) {
     if (source.starts_with(kNeedle)) {
         if (options.tip || options.axis) {
             return badArgument(std::string(options.tip ? "--tip" : "--axis") +
-                               ": a builtin needle has its own tip and axis; leave it out");
+                               ": the builtin needle has its own tip and axis; leave it out");
         }
         inputs.task.needle = {kNeedleDiameter, kNeedleLength};
         if (source.size() > kNeedle.size()) {
@@ -74,8 +74,8 @@ Result<void> readInstrument(const PlanOptions& options, PlanInputs& inputs) {
         return {};
     }
     if (!options.tip || !options.axis) {
-        return badArgument(std::string(options.tip ? "--axis" : "--tip") + ": it is needed to know how " +
-                           forMessage(source) + " goes in");
+        return badArgument(std::string(options.tip ? "--axis" : "--tip") + ": add it to set how " + forMessage(source) +
+                           " goes in");
     }
     Result<cpu::Mesh> mesh = cpu::Mesh::create(data->view());
     VOXTACT_TRY(mesh);
@@ -109,13 +109,13 @@ Result<void> readAvoided(const PlanOptions& options, const TransferFunctionOptio
 
 Result<void> readObstacles(const PlanOptions& options, PlanInputs& inputs) {
     if (options.avoid.empty() && !options.avoidOpacity) {
-        return badArgument("--avoid, --avoid-opacity: one of them must say what is not to be touched");
+        return badArgument("no obstacle; add --avoid or --avoid-opacity");
     }
     if (!options.avoid.empty() && !inputs.labels) {
-        return badArgument("--avoid: it is about labels, and --labels is not given");
+        return badArgument("--avoid: it needs a label map; add --labels");
     }
     if (!options.avoidVolume.empty() && !options.avoidOpacity) {
-        return badArgument("--avoid-volume: --avoid-opacity must say what of it is not to be touched");
+        return badArgument("--avoid-volume: it has no opaque obstacle without --avoid-opacity; add --avoid-opacity");
     }
     if (!options.avoid.empty()) {
         Result<LabelData> onGrid = labelsOnGrid(inputs.labels->labels, inputs.head->volume.grid(),
@@ -127,9 +127,9 @@ Result<void> readObstacles(const PlanOptions& options, PlanInputs& inputs) {
         labels.labels = &inputs.labels->labels;
         labels.name = "--avoid";
         for (const LabelWord& word : options.avoid) {
-            const Result<std::vector<std::int32_t>> found = labelsOf(*inputs.labels, word, "--avoid");
-            VOXTACT_TRY(found);
-            labels.avoid.insert(labels.avoid.end(), found->begin(), found->end());
+            const Result<std::vector<std::int32_t>> avoided = labelsOf(*inputs.labels, word, "--avoid");
+            VOXTACT_TRY(avoided);
+            labels.avoid.insert(labels.avoid.end(), avoided->begin(), avoided->end());
         }
         inputs.obstacles.push_back(labels);
     }
@@ -149,7 +149,7 @@ Result<void> chooseSurface(const PlanOptions& options, PlanInputs& inputs) {
     surface.entries = options.entries;
     surface.borderEntries = options.borderEntries;
     if (!options.entryLabel.empty() && options.entryRadius) {
-        return badArgument("--entry-radius: --entry-label says already where entries are; leave out one of the two");
+        return badArgument("--entry-radius: --entry-label also places the entries; leave out one of the two");
     }
     if (options.entryRadius) {
         surface.radius = *options.entryRadius;
@@ -162,7 +162,7 @@ Result<void> chooseSurface(const PlanOptions& options, PlanInputs& inputs) {
         return {};
     }
     if (!inputs.labels) {
-        return badArgument("--entry-label: it is about labels, and --labels is not given");
+        return badArgument("--entry-label: it needs a label map; add --labels");
     }
     const Result<std::int32_t> label = labelOf(*inputs.labels, options.entryLabel, "--entry-label");
     VOXTACT_TRY(label);
@@ -176,7 +176,7 @@ Result<void> chooseSurface(const PlanOptions& options, PlanInputs& inputs) {
 Result<std::unique_ptr<PlanInputs>> readPlan(const PlanOptions& options) {
     auto inputs = std::make_unique<PlanInputs>();
     if (options.labels.empty() && !options.labelNames.empty()) {
-        return badArgument("--label-names: it names the labels of a label map, and --labels is not given");
+        return badArgument("--label-names: it needs a label map; add --labels");
     }
     Result<PlanVolume> head =
         readVolumeOf(options.volumes.front(), options.resample, options.transferFunction, "the transfer function",
@@ -198,8 +198,8 @@ Result<std::unique_ptr<PlanInputs>> readPlan(const PlanOptions& options) {
     VOXTACT_TRY(readTargets(options, *inputs));
     if (inputs->task.surface.volume == nullptr && options.picture.empty() &&
         (options.transferFunction.opacity || !options.transferFunction.path.empty())) {
-        inputs->notes.emplace_back("--opacity, --transfer-function: of entries that are given nothing is asked about "
-                                   "what is opaque; they are not used");
+        inputs->notes.emplace_back("--opacity, --transfer-function are not used: --entry-label or --entry-radius "
+                                   "places the entries");
     }
     inputs->task.target = inputs->targets.front().at;
     inputs->task.margin = options.margin;

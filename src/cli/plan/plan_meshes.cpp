@@ -34,7 +34,7 @@ void addTriangle(MeshData& mesh, const std::array<dvec3, 3>& corners) {
 
 /// Colour of a path with this safety and distance.
 Rgb colourOf(const PlanInputs& inputs, const PlanAnswer& answer, const EntryTriangle& triangle, double maximum) {
-    constexpr double kColours = 24; // each is a mesh
+    constexpr double kColours = 24; // one mesh per colour
     PlannedPath all = answer.paths[triangle.paths[0]];
     for (const std::uint32_t number : triangle.paths) {
         const PlannedPath& path = answer.paths[number];
@@ -50,16 +50,16 @@ Rgb colourOf(const PlanInputs& inputs, const PlanAnswer& answer, const EntryTria
     return planColour(all, maximum);
 }
 
-/// A matrix that turns z to a direction of length 1.
+/// Returns a rotation that maps z to a unit direction.
 Mat4 poseAlong(const dvec3& direction, const dvec3& origin) {
-    const dvec3 beside =
+    const dvec3 second =
         glm::normalize(glm::cross(direction, std::abs(direction.z) < 0.5 ? dvec3(0, 0, 1) : dvec3(1, 0, 0)));
-    const dvec3 third = glm::cross(direction, beside);
-    return {beside.x,    beside.y,    beside.z,    0, third.x,  third.y,  third.z,  0,
+    const dvec3 third = glm::cross(direction, second);
+    return {second.x,    second.y,    second.z,    0, third.x,  third.y,  third.z,  0,
             direction.x, direction.y, direction.z, 0, origin.x, origin.y, origin.z, 1};
 }
 
-/// Half a turn about an axis of length 1.
+/// Returns half a turn about a unit axis.
 glm::dmat3 halfTurn(const dvec3& axis) {
     return 2.0 * glm::outerProduct(axis, axis) - glm::dmat3(1);
 }

@@ -43,7 +43,7 @@ void addNotesOf(const PlanInputs& inputs, const PlanAnswer& answer, const std::s
 
 } // namespace
 
-std::vector<ChosenPath> rankedPaths(std::span<const TargetPlan> plans, std::size_t most) {
+std::vector<ChosenPath> rankedPaths(std::span<const TargetPlan> plans, std::size_t max) {
     std::vector<ChosenPath> safe;
     for (const TargetPlan& plan : plans) {
         for (const PlannedPath& path : plan.answer.paths) {
@@ -52,8 +52,8 @@ std::vector<ChosenPath> rankedPaths(std::span<const TargetPlan> plans, std::size
             }
         }
     }
-    const std::size_t kept = std::min(safe.size(), most);
-    // Of equal ones, the first.
+    const std::size_t kept = std::min(safe.size(), max);
+    // Prefers the first of equal paths.
     const auto isBefore = [](const ChosenPath& a, const ChosenPath& b) {
         return isBetter(*a.path, *b.path) ||
                (!isBetter(*b.path, *a.path) && std::pair(a.plan, a.path) < std::pair(b.plan, b.path));

@@ -20,17 +20,17 @@ void addVector(CLI::App& parser, const char* option, std::optional<Vec3>& value,
 void addObstacleOptions(CLI::App& parser, const std::shared_ptr<PlanOptions>& options) {
     addPath(parser, "--labels", options->labels, "label map on the volume's grid or a part of it");
     addPath(parser, "--label-names", options->labelNames,
-            "names of its labels, lines 'number name'; default: the label map's path with .txt, if it exists");
+            "lines 'number name'; default: the label map's path with .txt, if it exists");
     parser.add_option("--avoid", options->avoid, "labels to avoid, opaque or not: numbers or names")
         ->delimiter(',')
         ->type_name("LABEL,...");
     parser.add_option("--avoid-opacity", options->avoidOpacity, "transfer function of a further opaque obstacle")
         ->type_name("LIST");
-    parser.add_option("--avoid-volume", options->avoidVolume, "volume of --avoid-opacity; default: that of --volume")
+    parser.add_option("--avoid-volume", options->avoidVolume, "volume of --avoid-opacity; default: --volume")
         ->type_name("PATH")
         ->check(refuseEmpty);
     addVector(parser, "--tip", options->tip, "tip of a mesh, object space");
-    addVector(parser, "--axis", options->axis, "from the tip of a mesh to its handle, object space");
+    addVector(parser, "--axis", options->axis, "direction of a mesh from its tip to its handle, object space");
 }
 
 void addTargetOptions(CLI::App& parser, const std::shared_ptr<PlanOptions>& options) {
@@ -55,13 +55,13 @@ void addEntryOptions(CLI::App& parser, const std::shared_ptr<PlanOptions>& optio
         {.least = 12, .most = kMaxEntries}, "directions, rounded up to 10 n^2 + 2", options->entries);
     parser
         .add_option("--entry-label", options->entryLabel,
-                    "entries on the outside of this label; default: of the opaque region")
+                    "place entries on the outside of this label; default: of the opaque region")
         ->type_name("LABEL")
         ->check(refuseEmpty);
     addNumber(
         parser, "--entry-radius", [options](double mm) { options->entryRadius = mm; },
-        "entries at this distance from the target, mm", [](double mm) { return mm > kNearestEntry; }, "above 0.001",
-        "none");
+        "place entries at this distance from the target, mm", [](double mm) { return mm > kNearestEntry; },
+        "above 0.001", "none");
     parser.add_flag("--border-entries", options->borderEntries, "allow entries where the image cuts the body");
     addFact(parser, factOf("plan", "max_length"), [options](double mm) { options->longest = mm; });
     addFact(parser, factOf("plan", "max_angle"), [options](double degrees) { options->steepest = degrees; });
@@ -84,7 +84,7 @@ void addPlanOptions(CLI::App& parser, const std::shared_ptr<PlanOptions>& option
     addPath(parser, "--surface", options->surface,
             ".ply file of the entries, coloured; several targets: a path with {target}");
     addPath(parser, "--heat-map", options->heatMap,
-            "volume file of the distance of paths through each voxel, mm; several targets: {target}");
+            "volume file: distance of the paths through each voxel, mm; several targets: a path with {target}");
     addPath(parser, "--picture", options->picture, "PNG of entries and best path; needs a Vulkan device");
     addSize(
         parser,

@@ -32,8 +32,8 @@ ViewDirection directionTo(const dvec3& eye) {
 /// The plan and the path of a picture.
 struct Shown {
     const TargetPlan* plan = nullptr;
-    const PlannedPath* best = nullptr; ///< null: no path is safe
-    dvec3 along{0, -1, 0};             ///< from the target to the best entry; without one to the middle of all
+    const PlannedPath* best = nullptr; ///< null: no safe path
+    dvec3 along{0, -1, 0};             ///< from the target to the best entry, or else to the middle of all entries
     dvec3 away{};                      ///< perpendicular to the path: this side is cut away
 };
 
@@ -81,7 +81,7 @@ class PlanPainter {
         scene_.values = head.values;
         scene_.domain = tableDomain(options_.transferFunction, head.type, head.values);
         scene_.opacity = points->empty() ? defaultRamp(scene_.domain) : std::move(*points);
-        // The cut face shows the values themselves.
+        // The cut face shows voxel values.
         scene_.colours = {{head.values.lo, {0.05, 0.05, 0.05}}, {head.values.hi, {1, 0.98, 0.95}}};
         scene_.poses = {identity()};
         look_.transferFunction = options_.transferFunction;
@@ -89,21 +89,21 @@ class PlanPainter {
         look_.background = {0.11, 0.12, 0.14};
         return {};
     }
-    /// From outside, slightly beside the path, which would otherwise be a point.
+    /// Paints the view from outside, slightly off the path, which would otherwise be a point.
     [[nodiscard]] Result<Picture> outside(VkExtent2D size) {
-        constexpr double kBeside = 0.45; // radians
-        const dvec3 eye = std::cos(kBeside) * shown_.along + std::sin(kBeside) * shown_.away;
+        constexpr double kOffPath = 0.45; // radians
+        const dvec3 eye = std::cos(kOffPath) * shown_.along + std::sin(kOffPath) * shown_.away;
         begin(size, directionTo(glm::normalize(eye)), {});
         addEntries([](const Vec3&) { return true; });
         VOXTACT_TRY(addInstrument());
         std::vector<Swatch> swatches{{toColour(planColour(unsafe(), 1)), "unsafe"},
-                                     {toColour(planColour(possible(), 1)), "not certain"}};
+                                     {toColour(planColour(possible(), 1)), "undecided"}};
         if (shown_.best != nullptr) {
             swatches.push_back({look_.meshColours.back(), "best path"});
         }
         return paint(size, "entries to " + targetText() + ", " + areaText(), std::move(swatches), false);
     }
-    /// From the side, without the part in front of the path.
+    /// Paints the view from the side, without the part in front of the path.
     [[nodiscard]] Result<Picture> cut(VkExtent2D size) {
         const Vec3 target = shown_.plan->target.at;
         const Vec3 normal = fromGlm(shown_.away);
@@ -119,12 +119,12 @@ class PlanPainter {
         VOXTACT_TRY(addInstrument());
         std::vector<Swatch> swatches;
         if (some) {
-            swatches.push_back({colour, "to be avoided"});
+            swatches.push_back({colour, "avoid"});
         }
         swatches.push_back({look_.meshColours.back(), "entry " + std::to_string(shown_.best->entry)});
         return paint(size,
-                     "cut along it: at least " + hundredths(shown_.best->clearance.lower, std::floor) + " mm clear, " +
-                         hundredths(shown_.best->length, std::round) + " mm long",
+                     "cut along the path: at least " + hundredths(shown_.best->clearance.lower, std::floor) +
+                         " mm clear, " + hundredths(shown_.best->length, std::round) + " mm long",
                      std::move(swatches), true);
     }
 
@@ -136,7 +136,7 @@ class PlanPainter {
     }
     static PlannedPath possible() { return {}; }
 
-    /// A number alone says nothing.
+    /// Returns the name of the target; if it is only a number, its position.
     [[nodiscard]] std::string targetText() const {
         const PlanTarget& target = shown_.plan->target;
         if (!std::ranges::all_of(target.name, [](char one) { return one >= '0' && one <= '9'; })) {
@@ -165,7 +165,7 @@ class PlanPainter {
         scene_.room = annotated ? std::optional(roomFor(size.width, size.height, true, true)) : std::nullopt;
         const Box2 room = scene_.room ? scene_.room->frame
                                       : Box2{0, 0, static_cast<double>(size.width), static_cast<double>(size.height)};
-        // As deep as the instrument may reach.
+        // Maximum reach of the instrument.
         Box around = transformBox(worldFromTexture(scene_.volume.grid), {{0, 0, 0}, {1, 1, 1}});
         constexpr double kMore = 60; // mm
         for (std::size_t axis = 0; axis < 3; ++axis) {

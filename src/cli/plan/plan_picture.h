@@ -16,8 +16,8 @@ struct ColouredMesh {
     Colour colour{};
 };
 
-/// The triangles between the entries by their colours: safe ones by the minimum distance of their corners. Only those
-/// whose middle is `kept`, slightly in front of their surface.
+/// Returns the triangles between the entries by colour: safe triangles by the minimum distance of their corners.
+/// Returns only triangles whose middle is `kept`, slightly in front of their surface.
 [[nodiscard]] std::vector<ColouredMesh> entryMeshes(const PlanInputs& inputs, const TargetPlan& plan, double maximum,
                                                     const std::function<bool(const Vec3&)>& kept);
 /// Returns the needle with its tip at the target, or its visible part; for a mesh, the mesh.
@@ -27,8 +27,8 @@ struct ColouredMesh {
 /// Without triangles there are none.
 [[nodiscard]] ColouredMesh avoidedMesh(const PlanInputs& inputs, const Vec3& point, const Vec3& normal);
 
-/// The best of all paths, twice beside each other: along it from outside, and the head cut open at it. Without a safe
-/// path, the first target's entries. The inputs were read for a picture.
+/// Paints the best of all paths twice, side by side: from outside along the path, and with the head cut open at the
+/// path. Without a safe path, paints the entries of the first target. Needs inputs that were read for a picture.
 [[nodiscard]] Result<Picture> planPicture(const PlanOptions& options, const PlanInputs& inputs,
                                           std::span<const TargetPlan> plans, const device::Session& session);
 

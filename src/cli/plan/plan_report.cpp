@@ -18,8 +18,8 @@ namespace voxtact::app {
 namespace {
 
 constexpr std::size_t kRanked = 25;
-/// Maximum dots of a picture: more would hide each other.
-constexpr std::size_t kMostDots = 8000;
+/// Maximum dots of a map: more would hide each other.
+constexpr std::size_t kMaxDots = 8000;
 constexpr double kDisc = 240; ///< pixels, the radius of a half of the map
 
 using Rounding = double (*)(double);
@@ -41,13 +41,13 @@ std::string colourText(const Rgb& colour) {
     return out.str();
 }
 
-/// A half of the directions, seen along z from outside: as far from the disc's middle as the angle to z is large.
+/// Draws one hemisphere of directions, seen along z from outside; the radius grows with the angle to z.
 void writeHalf(std::ostream& out, const TargetPlan& plan, double maximum, bool upper) {
     const PlanAnswer& answer = plan.answer;
-    const std::size_t step = answer.paths.size() / kMostDots + 1;
+    const std::size_t step = answer.paths.size() / kMaxDots + 1;
     const Vec3& target = plan.target.at;
     const double size = std::max(
-        2.0, 0.9 * kDisc * std::sqrt(8.0 / static_cast<double>(std::min(answer.directions / step, kMostDots) + 1)));
+        2.0, 0.9 * kDisc * std::sqrt(8.0 / static_cast<double>(std::min(answer.directions / step, kMaxDots) + 1)));
     const double middle = kDisc + 10;
     out << "<figure><svg width=\"" << 2 * middle << "\" height=\"" << 2 * middle << "\"><circle cx=\"" << middle
         << "\" cy=\"" << middle << "\" r=\"" << kDisc << "\" fill=\"#f4f4f4\" stroke=\"#999\"/>\n";
@@ -66,7 +66,8 @@ void writeHalf(std::ostream& out, const TargetPlan& plan, double maximum, bool u
             << colourText(planColour(path, maximum)) << "\"><title>" << path.entry << ": "
             << fixed(path.clearance.lower, 2, std::floor) << " mm</title></circle>\n";
     }
-    out << "</svg><figcaption>" << (upper ? "entries above the target, seen from above" : "below it, seen from below")
+    out << "</svg><figcaption>"
+        << (upper ? "entries above the target, seen from above" : "entries below the target, seen from below")
         << "</figcaption></figure>\n";
 }
 
@@ -163,14 +164,14 @@ std::string base64(std::string_view bytes) {
     return out;
 }
 
-/// All targets together, then each for itself.
+/// Writes all targets together, then each target.
 void writeTargets(std::ostream& out, const PlanInputs& inputs, std::span<const TargetPlan> plans, double maximum) {
     const io::Table table = targetTable(inputs, plans);
     std::vector<std::size_t> rows(plans.size());
     std::iota(rows.begin(), rows.end(), std::size_t{0});
     out << "<h2>Targets</h2>\n";
     writeRows(out, table, rows);
-    out << "<h2>The safest paths of all</h2>\n";
+    out << "<h2>Safest paths of all targets</h2>\n";
     writeRanking(out, inputs, plans);
     for (std::size_t i = 0; i < plans.size(); ++i) {
         const std::span<const TargetPlan> one = plans.subspan(i, 1);
@@ -196,7 +197,7 @@ void writePlanReport(std::ostream& out, const PlanInputs& inputs, std::span<cons
            "0}"
            "figcaption{text-align:center}</style></head><body>\n<h1>Paths to "
         << (several ? std::to_string(plans.size()) + " targets" : placeText(plans.front().target))
-        << "</h1>\n<p>World millimetres, LPS. A safe path certainly keeps more than " << number(inputs.task.margin)
+        << "</h1>\n<p>World millimetres, LPS. A safe path provably keeps more than " << number(inputs.task.margin)
         << " mm.</p>\n";
     std::vector<std::string> notes = inputs.notes;
     std::ranges::move(planNotes(inputs, plans), std::back_inserter(notes));
@@ -209,10 +210,10 @@ void writePlanReport(std::ostream& out, const PlanInputs& inputs, std::span<cons
     if (several) {
         writeTargets(out, inputs, plans, maximum);
     } else {
-        out << "<h2>Where they begin</h2>\n";
+        out << "<h2>Entries</h2>\n";
         writeMaps(out, plans.front(), maximum);
         writeKey(out, maximum);
-        out << "<h2>The safest paths</h2>\n";
+        out << "<h2>Safest paths</h2>\n";
         writeRanking(out, inputs, plans);
     }
     out << "<p>voxtact " << inHtml(programVersion()) << "</p>\n</body></html>\n";

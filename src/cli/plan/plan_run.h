@@ -28,7 +28,7 @@ namespace voxtact::app {
 struct PlanOptions {
     std::vector<std::string> volumes;
     MeshOptions meshes;
-    TransferFunctionOptions transferFunction; ///< of the volume: what can be entered through
+    TransferFunctionOptions transferFunction; ///< of the volume; its opaque region has the entries
     std::filesystem::path labels;
     std::filesystem::path labelNames;
     std::vector<LabelWord> avoid;
@@ -36,8 +36,8 @@ struct PlanOptions {
     std::optional<std::string> avoidOpacity; ///< empty: no opaque obstacle
     std::string space;                       ///< of points: lps or ras; empty: not given
     std::vector<std::string> targets;        ///< x,y,z or a label each
-    std::vector<LabelWord> targetLabels;     ///< after them: labels
-    std::filesystem::path targetFile;        ///< after these: a line each; empty: none
+    std::vector<LabelWord> targetLabels;     ///< follow `targets`
+    std::filesystem::path targetFile;        ///< follows `targetLabels`; one target per line; empty: none
     std::optional<Vec3> tip;
     std::optional<Vec3> axis;
     std::uint32_t entries = 10000;
@@ -48,20 +48,20 @@ struct PlanOptions {
     std::optional<double> steepest; ///< degrees
     double margin = 0;              ///< mm
     double tolerance = kDefaultPlanTolerance;
-    std::optional<double> maximum; ///< mm; nothing: planMaximum()
+    std::optional<double> maximum; ///< mm; empty: planMaximum()
     std::uint32_t threads = 0;
     bool summary = false;
     bool timing = false;
     bool resample = false;
     bool progress = true;
-    std::filesystem::path byTarget; ///< a CSV file to write; empty: none
-    std::filesystem::path surface;  ///< a .ply file to write; empty: none
-    std::filesystem::path heatMap;  ///< a volume to write; empty: none
-    std::filesystem::path picture;  ///< a .png file to write; empty: none
+    std::filesystem::path byTarget; ///< CSV file to write; empty: none
+    std::filesystem::path surface;  ///< .ply file to write; empty: none
+    std::filesystem::path heatMap;  ///< volume file to write; empty: none
+    std::filesystem::path picture;  ///< .png file to write; empty: none
     VkExtent2D half{512, 512};      ///< size of each of the picture's two halves
     bool sizeGiven = false;
     DeviceChoice device;
-    std::filesystem::path report; ///< an .html file to write; empty: none
+    std::filesystem::path report; ///< .html file to write; empty: none
     Shard shard;                  ///< of the targets
     OutputOptions output;
 };
@@ -77,7 +77,7 @@ struct PlanVolume {
 
 /// A target of the tip.
 struct PlanTarget {
-    std::string name; ///< a label's, or a line's of a file; else its number among all, from 1
+    std::string name; ///< of a label or of a line in a file; else the number of the target, from 1
     Vec3 at{};        ///< world mm
 };
 
@@ -89,7 +89,7 @@ struct TargetPlan {
 
 /// A path of one of several plans.
 struct ChosenPath {
-    const TargetPlan* plan = nullptr; ///< null: there is none
+    const TargetPlan* plan = nullptr; ///< null: no path
     const PlannedPath* path = nullptr;
 };
 
@@ -97,21 +97,21 @@ struct ChosenPath {
 struct PlanInputs {
     std::optional<PlanVolume> head;
     std::optional<PlanVolume> avoided;                  ///< volume whose opaque region is an obstacle
-    std::optional<cpu::TransferFunction> avoidedInHead; ///< the same of `head`
+    std::optional<cpu::TransferFunction> avoidedInHead; ///< transfer function of an obstacle in `head`
     std::optional<NamedLabels> labels;
     std::optional<cpu::Mesh> mesh;
     std::optional<VolumeData> shown;          ///< for a picture: source of `head`
     std::optional<MeshData> shownMesh;        ///< for a picture: source of `mesh`
     std::vector<cpu::PlanObstacle> obstacles; ///< reference the members above
-    std::vector<PlanTarget> targets;          ///< of different names; never none
-    std::optional<bool> isResampled;          ///< one of the volumes; nothing: not to be told
-    cpu::Plan task;                           ///< refers to all of these; its target is the first
+    std::vector<PlanTarget> targets;          ///< unique names; never empty
+    std::optional<bool> isResampled;          ///< true if a volume was resampled; empty: without --resample
+    cpu::Plan task;                           ///< references the members above; its target is the first
     std::vector<std::string> notes;           ///< printed after success: an error is one line
 };
 
 void addPlanOptions(CLI::App& parser, const std::shared_ptr<PlanOptions>& options);
 
-/// x,y,z; nothing where a text is not three finite numbers.
+/// Parses x,y,z; empty if the text is not three finite numbers.
 [[nodiscard]] std::optional<Vec3> parsePoint(const std::string& text);
 
 /// Returns the inputs of a plan, which outputs must not overwrite.
@@ -120,24 +120,24 @@ void addPlanOptions(CLI::App& parser, const std::shared_ptr<PlanOptions>& option
 [[nodiscard]] std::vector<NamedPath> planWrites(const PlanOptions& options);
 /// Reads all inputs. The result must not be moved: it references itself.
 [[nodiscard]] Result<std::unique_ptr<PlanInputs>> readPlan(const PlanOptions& options);
-/// Sets where tips go; volume and labels are read.
+/// Sets the targets; volume and labels must be read.
 [[nodiscard]] Result<void> readTargets(const PlanOptions& options, PlanInputs& inputs);
 
-/// Returns a maximum in mm that distinguishes the best paths: twice the largest distance along some directions from
-/// some of the targets, the same for every part of a run.
+/// Returns a maximum in mm that distinguishes the best paths: twice the largest distance in a sample of directions and
+/// targets. All shards of a run get the same maximum.
 [[nodiscard]] Result<double> planMaximum(const PlanOptions& options, const PlanInputs& inputs);
 
 /// Plans for one of the targets.
 [[nodiscard]] Result<TargetPlan> planFor(const PlanInputs& inputs, std::size_t target, cpu::HostEngine& engine);
 
-/// Returns the best safe paths of all plans, at most this number.
-[[nodiscard]] std::vector<ChosenPath> rankedPaths(std::span<const TargetPlan> plans, std::size_t most);
+/// Returns the best safe paths of all plans, at most `max`.
+[[nodiscard]] std::vector<ChosenPath> rankedPaths(std::span<const TargetPlan> plans, std::size_t max);
 /// Returns the notes on plans: number of safe paths, area, best path.
 [[nodiscard]] std::vector<std::string> planNotes(const PlanInputs& inputs, std::span<const TargetPlan> plans);
 
 [[nodiscard]] std::vector<std::string> targetNames(const PlanInputs& inputs);
 
-/// A file of which each target has one: its path may have {target} in it.
+/// A file per target; its path may have {target}.
 struct TargetFile {
     std::string option;
     std::filesystem::path path;
@@ -152,22 +152,22 @@ struct TargetFile {
 /// JSON has the rows of targetTable() behind these as "by_target".
 void writePlanTable(std::ostream& out, const PlanOptions& options, const PlanInputs& inputs,
                     std::span<const TargetPlan> plans);
-/// targetTable() as CSV.
+/// Writes targetTable() as CSV.
 void writeTargetTable(std::ostream& out, const PlanOptions& options, const PlanInputs& inputs,
                       std::span<const TargetPlan> plans);
-/// The rows, and what they are about. Refers to both.
+/// Returns one row per path. References both arguments.
 [[nodiscard]] io::Table planTable(const PlanInputs& inputs, std::span<const TargetPlan> plans, bool timing);
-/// A row for each plan. Refers to both.
+/// Returns one row per plan. References both arguments.
 [[nodiscard]] io::Table targetTable(const PlanInputs& inputs, std::span<const TargetPlan> plans);
-/// The triangles between the entries in colours, as PLY.
+/// Writes the coloured triangles between the entries as PLY.
 void writePlanSurface(std::ostream& out, const PlanAnswer& answer, bool certified, double maximum);
-/// The entries on a grid, as float: mm that every path which enters through a voxel certainly keeps; -1 where none
-/// does. Not `certified`: of a mesh's paths, each in the voxel of its entry.
+/// Returns a float volume: the certified distance, mm, of all paths that enter through a voxel; -1 without a path. If
+/// not `certified` (paths of a mesh), each path is in the voxel of its entry.
 [[nodiscard]] VolumeData planHeatMap(const Grid& grid, const PlanAnswer& answer, bool certified);
-/// The ending by which a file of volumes is known; empty: it has none of these.
+/// Returns the ending of a volume file; empty if it is unknown.
 [[nodiscard]] std::string volumeEnding(const std::filesystem::path& path);
-/// A page with the notes, the best paths, and for each target the entries in colours.
-/// `png`: the content of a picture that is in it; empty: there is none.
+/// Writes an HTML page with notes, best paths, and the coloured entries of each target. `png`: an embedded picture;
+/// empty: none.
 void writePlanReport(std::ostream& out, const PlanInputs& inputs, std::span<const TargetPlan> plans, double maximum,
                      std::string_view png);
 

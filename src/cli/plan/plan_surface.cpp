@@ -24,10 +24,10 @@ template <class Number> void append(std::string& bytes, Number number) {
 void writePlanSurface(std::ostream& out, const PlanAnswer& answer, bool certified, double maximum) {
     out << "ply\nformat binary_little_endian 1.0\n"
            "comment entries by voxtact; world, mm, LPS (+x left, +y posterior, +z superior)\n"
-           "comment colour of safe paths: clearance from 0 (dark violet) to "
+           "comment colour of safe paths: distance from 0 (dark violet) to "
         << number(maximum) << " mm (yellow), viridis; unsafe: red; undecided: grey\n"
         << (certified ? "comment a face is safe where every path from it is\n"
-                      : "comment of faces nothing is known: paths of a mesh are decided one by one\n")
+                      : "comment faces are not certified: paths of a mesh are decided one by one\n")
         << "element vertex " << answer.paths.size()
         << "\nproperty float x\nproperty float y\nproperty float z\n"
            "property uchar red\nproperty uchar green\nproperty uchar blue\n"

@@ -19,13 +19,13 @@ constexpr std::array kTargetColumns{"target",    "x",          "y",           "z
                                     "on_border", "too_long",   "too_oblique", "area_mm2",   "safe_area_mm2",
                                     "best",      "best_lower", "best_length"};
 
-/// A nanometre: more digits say nothing.
+/// Steps per mm: more digits than a nanometre have no meaning.
 io::Cell millimetres(double value) {
     constexpr double kParts = 1e6;
     return std::isfinite(value) ? std::round(value * kParts) / kParts + 0.0 : value;
 }
 
-/// Bounds are rounded away from each other.
+/// Rounds bounds outward.
 double roundedTo(double value, double (*round)(double value, double parts)) {
     constexpr double kParts = 1e6;
     return std::isfinite(value) ? round(value, kParts) : value;
@@ -44,7 +44,7 @@ std::string crossed(const PlanInputs& inputs, const PlanTarget& target, const Pl
     std::string out;
     const Result<std::vector<std::int32_t>> labels = labelsAlong(inputs.labels->labels, path.position, target.at);
     if (!labels.ok()) {
-        throw std::bad_alloc(); // the plan has examined all that can be refused
+        throw std::bad_alloc(); // the plan has checked all arguments
     }
     for (const std::int32_t label : *labels) {
         out += (out.empty() ? "" : ";") + labelName(inputs.labels->names, label);
@@ -87,7 +87,7 @@ io::Cell countCell(const PlanAnswer& answer, Safety safety) {
     return static_cast<std::uint64_t>(std::ranges::count(answer.paths, safety, &PlannedPath::safety));
 }
 
-/// mm2 to a hundredth, rounded down: an area that is certain.
+/// Rounds a certain area down, to 0.01 mm^2.
 io::Cell areaCell(double area) {
     constexpr double kParts = 100;
     return lowerRounded(area, kParts);
@@ -157,7 +157,7 @@ void addResampled(const PlanInputs& inputs, io::Table& table) {
 io::Table planTable(const PlanInputs& inputs, std::span<const TargetPlan> plans, bool timing) {
     io::Table out;
     out.columns = {kColumns.begin(), kColumns.end()};
-    std::vector<std::size_t> firsts; // rows of plans
+    std::vector<std::size_t> firsts; // first row of each plan
     double milliseconds = 0;
     for (const TargetPlan& plan : plans) {
         firsts.push_back(out.rows);

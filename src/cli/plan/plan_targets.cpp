@@ -50,26 +50,26 @@ bool isInside(const Grid& grid, const Vec3& world) {
     return std::all_of(at.begin(), at.end(), [](double one) { return one >= 0 && one <= 1; });
 }
 
-/// The targets so far, and the source of more.
+/// Collects targets and checks their names.
 class TargetList {
   public:
     explicit TargetList(const PlanInputs& inputs) : inputs_(inputs) {}
 
-    /// An empty name: the number of the target. `option` is for messages.
+    /// An empty name becomes the number of the target. `option`: for messages.
     [[nodiscard]] Result<void> add(const std::string& option, std::string name, const Vec3& at) {
         const Grid& grid = inputs_.head->volume.grid();
         if (!isInside(grid, at)) {
             const Mat4 box = worldFromTexture(grid);
-            return badArgument(
-                option + ": " + pointText(at) + " is outside of the volume, whose opposite corners are " +
-                pointText(transformPoint(box, {0, 0, 0})) + " and " + pointText(transformPoint(box, {1, 1, 1})));
+            return badArgument(option + ": " + pointText(at) + " is outside the volume, whose opposite corners are " +
+                               pointText(transformPoint(box, {0, 0, 0})) + " and " +
+                               pointText(transformPoint(box, {1, 1, 1})));
         }
         if (name.empty()) {
             name = std::to_string(list_.size() + 1);
         }
         if (!names_.insert(name).second) {
-            return badArgument(option + ": there is a target " + forMessage(name) +
-                               " already; leave one of the two out, or give it another name in a file of --targets");
+            return badArgument(option + ": the target " + forMessage(name) +
+                               " exists already; leave out or rename one of the two in a file of --targets");
         }
         list_.push_back({std::move(name), at});
         return {};
@@ -133,16 +133,15 @@ Result<void> readTargets(const PlanOptions& options, PlanInputs& inputs) {
             VOXTACT_TRY(targets.add("--target", "", lpsFrom(options.space, *given)));
         } else if (!inputs.labels) {
             return badArgument("--target: " + forMessage(text) +
-                               " is not a point x,y,z, and there are no --labels that could have one of this name");
+                               " is not a point x,y,z; add --labels to use label names");
         } else if (const Result<void> label = targets.addLabel("--target", text); !label.ok()) {
             return text.find(',') == std::string::npos
                        ? label.error()
-                       : badArgument("--target: " + forMessage(text) +
-                                     " is neither a point x,y,z, three finite numbers, nor a label");
+                       : badArgument("--target: " + forMessage(text) + " is neither a point x,y,z nor a label");
         }
     }
     if (!options.targetLabels.empty() && !inputs.labels) {
-        return badArgument("--target-label: it is about labels, and --labels is not given");
+        return badArgument("--target-label: it needs a label map; add --labels");
     }
     for (const LabelWord& word : options.targetLabels) {
         VOXTACT_TRY(targets.addLabel("--target-label", word));

@@ -22,10 +22,10 @@ constexpr double kRow = 1.6;
 constexpr double kEdge = 0.6;
 constexpr double kColumn = 6;
 constexpr double kCube = 5;
-/// The least part of a picture, along each side, that is left for the volume.
-constexpr double kLeastFrame = 0.6;
+/// Minimum share of each side of a picture that remains for the volume.
+constexpr double kMinFrame = 0.6;
 
-/// Baseline of a line of text in a row.
+/// Returns the base line of text in a row.
 double baseIn(const Box2& row, double size) {
     return (row.top + row.bottom + capitalHeight(size)) / 2;
 }
@@ -53,11 +53,11 @@ void drawSwatches(Canvas& canvas, const std::vector<Swatch>& swatches, const Box
     }
 }
 
-/// 1, 2 or 5 times a power of ten, at most `most`.
-double niceBelow(double most) {
-    const double power = std::pow(10, std::floor(std::log10(most)));
+/// Returns the largest 1, 2 or 5 times a power of ten up to `max`.
+double niceBelow(double max) {
+    const double power = std::pow(10, std::floor(std::log10(max)));
     for (const double factor : {5.0, 2.0}) {
-        if (factor * power <= most) {
+        if (factor * power <= max) {
             return factor * power;
         }
     }
@@ -123,7 +123,7 @@ AnnotationRoom roomFor(std::uint32_t width, std::uint32_t height, bool swatches,
     const double row = kRow * text;
     room.text = text;
     room.frame = {0, 0, w, h};
-    const auto fits = [](double rest, double whole) { return rest >= kLeastFrame * whole; };
+    const auto fits = [](double rest, double whole) { return rest >= kMinFrame * whole; };
     double wide = w;
     double high = h;
     if (fits(wide - 2 * row, w) && fits(high - 2 * row, h)) {

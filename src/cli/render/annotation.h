@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-/// Text on a picture: view, scale, and legend.
+/// Text on a picture: title, sides, scale and legend.
 namespace voxtact::app {
 
 /// Default minimum side of annotated pictures, pixels.
@@ -50,7 +50,7 @@ struct Annotation {
     Mat4 clip_from_world{};
 };
 
-/// The part of a transfer function that a legend shows: from where something is seen to its last point.
+/// Returns the values that a legend shows: from the first visible value to the last point.
 [[nodiscard]] ValueRange legendRange(const std::vector<ControlPoint>& opacity, const ValueRange& domain);
 
 /// Draws on a finished picture.

@@ -56,7 +56,7 @@ std::string title(const RenderOptions& options, const RenderInputs& inputs) {
 
 /// Returns the meaning of the last colour of distances.
 std::string farText(const RenderOptions& options) {
-    return number(options.show.maximum.value_or(kDefaultShownDistance)) + " mm or more away";
+    return number(options.show.maximum.value_or(kDefaultShownDistance)) + " mm or more";
 }
 
 std::vector<Swatch> swatches(const RenderOptions& options) {
@@ -67,7 +67,7 @@ std::vector<Swatch> swatches(const RenderOptions& options) {
     if (shown == "contacts") {
         all.push_back({paint.contactColour, "contact"});
     } else if (shown == "triangles") {
-        all.push_back({paint.contactColour, "triangle that touches"});
+        all.push_back({paint.contactColour, "touching triangle"});
     } else if (shown == "discarded") {
         all.push_back(options.slice ? Swatch{paint.contactColour, "contact"} : Swatch{kByOpacity, "contact"});
         all.push_back({paint.discardedColour, "no contact"});

@@ -22,7 +22,7 @@ bool isSide(const std::string& name) {
     return clipSide(name, std::nullopt, {}, {0, 0, 1}).has_value();
 }
 
-/// Four numbers with commas between them.
+/// Parses four comma-separated numbers.
 std::optional<ClipPlane> parsePlane(std::string_view text) {
     std::vector<double> numbers;
     while (true) {
@@ -65,7 +65,7 @@ ValueRange reachAlong(const Vec3& normal, const Grid& grid) {
 /// Returns the planes that bound the remaining volume, in texture coordinates, each moved inwards slightly: the faces
 /// of the volume, then the clipping planes.
 std::vector<ClipPlane> boundsInTexture(const std::vector<ClipPlane>& planes, const Grid& grid) {
-    constexpr double kInwards = 1e-9; // of how far the volume reaches along the normal
+    constexpr double kInwards = 1e-9; // relative to the extent of the volume along the normal
     const Mat4 world_from_texture = worldFromTexture(grid);
     const Vec3 origin = transformPoint(world_from_texture, {0, 0, 0});
     std::vector<ClipPlane> bounds{{{1, 0, 0}, 1},  {{0, 1, 0}, 1},  {{0, 0, 1}, 1},
@@ -101,7 +101,7 @@ bool leaveSomething(const std::vector<ClipPlane>& planes, const Grid& grid) {
                 const Vec3 ij = cross(bounds[i].normal, bounds[j].normal);
                 const double volume = dot(bounds[i].normal, along);
                 if (volume == 0) {
-                    continue; // they meet nowhere, or all along a line
+                    continue; // no single common point
                 }
                 Vec3 point{};
                 for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -128,10 +128,10 @@ std::string whereItIs(const ClipOption& clip, const Grid& grid, const Vec3& norm
     }
     if (clip.side == kNear) {
         const double middle = dot(normal, transformPoint(worldFromTexture(grid), {0.5, 0.5, 0.5}));
-        return "the volume is " + from(reach.lo - middle, reach.hi - middle) + " towards the eye";
+        return "the volume reaches " + from(reach.lo - middle, reach.hi - middle) + " towards the eye";
     }
     const bool negative = std::ranges::any_of(normal, [](double component) { return component < 0; });
-    return "the volume is there " + (negative ? from(-reach.hi, -reach.lo) : from(reach.lo, reach.hi));
+    return "there, the volume reaches " + (negative ? from(-reach.hi, -reach.lo) : from(reach.lo, reach.hi));
 }
 
 } // namespace
@@ -141,7 +141,7 @@ std::optional<std::string> parseClip(const std::string& text, ClipOption& clip) 
     clip.text = text;
     if (const auto plane = parsePlane(text)) {
         if (plane->normal == Vec3{0, 0, 0}) {
-            return "has a normal of zero: it is no plane";
+            return "has a normal of length 0";
         }
         clip.plane = *plane;
         return std::nullopt;
@@ -154,7 +154,7 @@ std::optional<std::string> parseClip(const std::string& text, ClipOption& clip) 
     if (colon != std::string::npos) {
         clip.at = parseFinite(std::string_view(text).substr(colon + 1));
         if (!clip.at) {
-            return "has no number of millimetres behind its colon";
+            return "has no number (mm) after its colon";
         }
     }
     return std::nullopt;
@@ -170,11 +170,11 @@ Result<std::vector<ClipPlane>> clipPlanes(const std::vector<ClipOption>& clips, 
         const ValueRange reach = reachAlong(plane.normal, grid);
         if (plane.offset <= reach.lo) {
             return badArgument("--clip " + clip.text +
-                               " takes all of the volume away: " + whereItIs(clip, grid, plane.normal, reach));
+                               " removes the whole volume: " + whereItIs(clip, grid, plane.normal, reach));
         }
         if (plane.offset >= reach.hi) {
             printNote("--clip " + clip.text +
-                      " takes nothing of the volume away: " + whereItIs(clip, grid, plane.normal, reach));
+                      " removes nothing of the volume: " + whereItIs(clip, grid, plane.normal, reach));
         }
         planes.push_back(plane);
     }
@@ -183,7 +183,7 @@ Result<std::vector<ClipPlane>> clipPlanes(const std::vector<ClipOption>& clips, 
         for (const ClipOption& clip : clips) {
             all += (all.empty() ? "--clip " : ", --clip ") + clip.text;
         }
-        return badArgument(all + ": together they take all of the volume away");
+        return badArgument(all + ": together they remove the whole volume");
     }
     return planes;
 }

@@ -10,19 +10,19 @@
 
 namespace voxtact::app {
 
-/// One --clip: a side that is taken away, or a plane by its numbers.
+/// A --clip: a side to remove, or a plane.
 struct ClipOption {
-    std::string text;         ///< as it was given
-    std::string side;         ///< left, ..., or near: towards the eye; empty: `plane`
-    std::optional<double> at; ///< mm; nothing: the middle of the volume
+    std::string text;         ///< as given
+    std::string side;         ///< left, ..., or near (towards the eye); empty: `plane`
+    std::optional<double> at; ///< mm; empty: the middle of the volume
     ClipPlane plane{};
 };
 
 /// Returns the error of a text, if any.
 [[nodiscard]] std::optional<std::string> parseClip(const std::string& text, ClipOption& clip);
 
-/// Planes in world space. Refuses one that takes all of the volume away, and several that do together; says of one that
-/// takes nothing.
+/// Returns the planes in world space. Refuses planes that remove the whole volume, alone or together; notes a plane
+/// that removes nothing.
 [[nodiscard]] Result<std::vector<ClipPlane>> clipPlanes(const std::vector<ClipOption>& clips, const Grid& grid,
                                                         const Mat4& clip_from_world);
 

@@ -90,7 +90,7 @@ Result<Picture> renderOn(const RenderOptions& options, const RenderInputs& input
     Result<RenderObjects> objects = uploadObjects(options, inputs, session);
     VOXTACT_TRY(objects);
     if (!objects->function.visible()) {
-        printNote("the transfer function has no opacity above 0: the volume is not to be seen");
+        printNote("the transfer function has no opacity above 0: the volume is invisible");
     }
     const std::vector<SceneMesh> meshes = sceneMeshes(options, inputs, *objects);
     Scene scene;

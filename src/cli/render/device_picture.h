@@ -6,7 +6,7 @@
 
 namespace voxtact::app {
 
-/// The volume and the meshes in it, by ray casting on the device.
+/// Draws the volume and its meshes by ray casting on the device.
 [[nodiscard]] Result<Picture> renderOn(const RenderOptions& options, const RenderInputs& inputs,
                                        const device::Session& session);
 

@@ -17,13 +17,13 @@ class EdgeHalver {
   public:
     EdgeHalver(MeshData& mesh, double longest) : mesh_(mesh), longest_(longest) {}
 
-    /// Once through all triangles; false where no edge was too long, or there would be too many triangles.
-    bool halve(std::size_t mostTriangles) {
+    /// Halves long edges once; returns false if there was none, or there would be too many triangles.
+    bool halve(std::size_t maxTriangles) {
         middles_.clear();
         std::vector<std::uint32_t> indices;
         for (std::size_t at = 0; at < mesh_.indices.size(); at += 3) {
             add({mesh_.indices[at], mesh_.indices[at + 1], mesh_.indices[at + 2]}, indices);
-            if (indices.size() / 3 > mostTriangles) {
+            if (indices.size() / 3 > maxTriangles) {
                 return false;
             }
         }
@@ -41,7 +41,7 @@ class EdgeHalver {
         };
         return std::hypot(at(a, 0) - at(b, 0), at(a, 1) - at(b, 1), at(a, 2) - at(b, 2));
     }
-    /// The vertex in the middle of an edge; none where it is short enough.
+    /// Returns the vertex in the middle of an edge; empty if the edge is short enough.
     std::uint32_t middleOf(std::uint32_t a, std::uint32_t b) {
         if (!(lengthOf(a, b) > longest_)) {
             return kNone;
@@ -63,7 +63,7 @@ class EdgeHalver {
             middles[i] = middleOf(corners[i], corners[(i + 1) % 3]);
             halved += middles[i] != kNone ? 1 : 0;
         }
-        // Edges that are halved first.
+        // The edges to halve first.
         while (halved == 1 ? middles[0] == kNone : halved == 2 && middles[2] != kNone) {
             std::rotate(corners.begin(), corners.begin() + 1, corners.end());
             std::rotate(middles.begin(), middles.begin() + 1, middles.end());
@@ -106,10 +106,10 @@ class EdgeHalver {
 
 } // namespace
 
-MeshData halveLongEdges(MeshData mesh, double longest, std::size_t mostTriangles) {
-    EdgeHalver halver(mesh, longest);
+MeshData halveLongEdges(MeshData mesh, double maxLength, std::size_t maxTriangles) {
+    EdgeHalver halver(mesh, maxLength);
     std::size_t vertices = mesh.positions.size();
-    while (halver.halve(mostTriangles)) {
+    while (halver.halve(maxTriangles)) {
         vertices = mesh.positions.size();
     }
     // Left by an abandoned round.

@@ -7,9 +7,9 @@
 
 namespace voxtact::app {
 
-/// Returns the same surface with more triangles: halves edges longer than `longest` repeatedly, so that values at the
-/// vertices describe the points between them. Neighbours stay neighbours: a shared edge is halved in both triangles.
-/// Ends before there are more than `mostTriangles`. `longest` is above 0, in the mesh's units.
-[[nodiscard]] MeshData halveLongEdges(MeshData mesh, double longest, std::size_t mostTriangles);
+/// Returns the same surface with more triangles: repeatedly halves edges longer than `maxLength`, so that values at the
+/// vertices describe the points between them. Halves a shared edge in both triangles. Stops before `maxTriangles` is
+/// exceeded. `maxLength`: above 0, in the mesh's units.
+[[nodiscard]] MeshData halveLongEdges(MeshData mesh, double maxLength, std::size_t maxTriangles);
 
 } // namespace voxtact::app

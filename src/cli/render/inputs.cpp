@@ -56,7 +56,7 @@ Result<void> readVolume(const RenderOptions& options, RenderInputs& inputs) {
     return {};
 }
 
-/// The smallest box that holds two.
+/// Returns the smallest box that holds both boxes.
 Box around(const Box& a, const Box& b) {
     Box out = a;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -144,7 +144,7 @@ Result<void> setLook(const RenderOptions& options, RenderInputs& inputs) {
     return {};
 }
 
-/// Without contacts to show, opacity notes do not matter.
+/// Prints opacity notes, which matter only for shown contacts.
 Result<void> noteOpacity(const RenderOptions& options, RenderInputs& inputs) {
     if (!options.show.what.empty()) {
         printOpacityNotes(inputs.transferFunction(options), inputs.values, options.transferFunction.threshold,

@@ -14,16 +14,16 @@ namespace voxtact::app {
 struct RenderInputs {
     VolumeData volume;
     ValueRange values;
-    std::vector<MeshData> meshes;       ///< as they are drawn
+    std::vector<MeshData> meshes;       ///< as drawn
     std::vector<Box> bounds;            ///< of the meshes, in object space
-    std::vector<Mat4> poses;            ///< those that are shown, of every mesh
+    std::vector<Mat4> poses;            ///< shown poses, of every mesh
     std::vector<std::uint32_t> numbers; ///< indices of these poses
     std::vector<ControlPoint> opacity;
     std::vector<ColourPoint> colours;
     ValueRange domain;
     std::optional<SlicePlane> slice;
     std::vector<ClipPlane> clips;
-    std::optional<AnnotationRoom> room; ///< of a picture that is annotated
+    std::optional<AnnotationRoom> room; ///< of an annotated picture
     Mat4 clip_from_world{};
     std::optional<MeshDistances> distances; ///< with --show distance
 

@@ -12,19 +12,19 @@ namespace voxtact::app {
 
 namespace {
 
-/// Values between two ticks: 1, 2 or 5 times a power of ten, of which at most `most` fit.
-double tickStep(const ValueRange& range, double most) {
-    const double least = (range.hi - range.lo) / std::max(most, 1.0);
-    const double power = std::pow(10, std::floor(std::log10(least)));
+/// Returns the distance of ticks: 1, 2 or 5 times a power of ten, for at most `max` ticks.
+double tickStep(const ValueRange& range, double max) {
+    const double min = (range.hi - range.lo) / std::max(max, 1.0);
+    const double power = std::pow(10, std::floor(std::log10(min)));
     for (const double factor : {1.0, 2.0, 5.0}) {
-        if (factor * power >= least) {
+        if (factor * power >= min) {
             return factor * power;
         }
     }
     return 10 * power;
 }
 
-/// One channel of a legend, from its lowest value to its highest.
+/// Returns a channel of a legend, from the lowest value to the highest.
 Result<std::vector<float>> sampled(std::span<const ControlPoint> points, const ValueRange& range, std::size_t rows) {
     return sampleTable({points, range, static_cast<std::uint32_t>(std::max<std::size_t>(rows, 2))});
 }
@@ -61,7 +61,7 @@ ValueRange legendRange(const std::vector<ControlPoint>& opacity, const ValueRang
 
 Result<void> drawLegend(Canvas& canvas, const Legend& legend, const Box2& box, double text) {
     const double size = 0.9 * text;
-    // On whole pixels: its rows cover each all of theirs.
+    // On whole pixels: each row covers its pixels completely.
     const Box2 ramp{std::round(box.left), std::round(box.top + 1.6 * size), std::round(box.left + 1.7 * size),
                     std::round(box.bottom)};
     if (!(ramp.height() > 3 * size)) {
@@ -83,12 +83,12 @@ Result<void> drawLegend(Canvas& canvas, const Legend& legend, const Box2& box, d
     drawText(canvas, legend.unit, size, {box.left, box.top + size});
     const Colour ink = inkOn(canvas.brightness(ramp));
     canvas.fill(ramp, ink, 0.12);
-    const double most = std::max(static_cast<double>(*std::ranges::max_element(*opacity)), 1e-6);
+    const double maxOpacity = std::max(static_cast<double>(*std::ranges::max_element(*opacity)), 1e-6);
     for (std::size_t row = 0; row < rows; ++row) {
         const Colour colour{channels[0][row], channels[1][row], channels[2][row]};
         const double bottom = ramp.bottom - static_cast<double>(row);
-        const double share = static_cast<double>((*opacity)[row]) / most;
-        constexpr double kHint = 0.25; // of the colour where there is hardly any opacity
+        const double share = static_cast<double>((*opacity)[row]) / maxOpacity;
+        constexpr double kHint = 0.25; // share of the colour at almost no opacity
         canvas.fill(Box2{ramp.left, bottom - 1, ramp.right, bottom}, colour, kHint);
         canvas.fill(Box2{ramp.left, bottom - 1, ramp.left + ramp.width() * share, bottom}, colour);
     }

@@ -5,7 +5,7 @@
 
 namespace voxtact::app {
 
-/// Values upwards; of each its colour, as wide as it is opaque compared with the most opaque.
+/// Draws a legend with values upwards: a bar per value, with its colour and a width relative to the maximum opacity.
 [[nodiscard]] Result<void> drawLegend(Canvas& canvas, const Legend& legend, const Box2& box, double text);
 
 } // namespace voxtact::app

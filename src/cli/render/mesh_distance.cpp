@@ -17,10 +17,10 @@ namespace voxtact::app {
 
 namespace {
 
-constexpr double kSteps = 20;   // of the colours, along an edge at most
-constexpr double kFinest = 400; // parts of the maximum: what cannot be seen any more
+constexpr double kSteps = 20;   // maximum colour steps along an edge
+constexpr double kFinest = 400; // fractions of the maximum: smaller differences are invisible
 constexpr std::size_t kPointsAtOnce = 4096;
-constexpr std::size_t kMostTriangles = 300'000;
+constexpr std::size_t kMaxTriangles = 300'000;
 
 Colour toColour(const Rgb& rgb) {
     return {rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0};
@@ -52,7 +52,7 @@ Result<HostScene> hostScene(const ShownPairs& pairs) {
     return HostScene{std::move(*volume), std::move(*function), pairs.threshold, pairs.poses};
 }
 
-/// The places of a mesh's vertices, each once, and which vertex is where.
+/// Distinct positions of a mesh's vertices, and the position of each vertex.
 struct Places {
     std::vector<Vec3> points;
     std::vector<std::size_t> ofVertex;
@@ -128,7 +128,7 @@ Result<std::vector<std::vector<Colour>>> coloursOf(const MeshData& mesh, const H
     return colours;
 }
 
-/// About how much longer lengths become.
+/// Returns the approximate scale of a transform.
 double scaleOf(const Mat4& pose) {
     double squares = 0;
     for (std::size_t column = 0; column < 3; ++column) {
@@ -164,7 +164,7 @@ MeshData meshForDistances(MeshData mesh, std::span<const Mat4> poses, double max
     for (const Mat4& pose : poses) {
         scale = std::max(scale, scaleOf(pose));
     }
-    return halveLongEdges(std::move(mesh), maximum / kSteps / scale, kMostTriangles);
+    return halveLongEdges(std::move(mesh), maximum / kSteps / scale, kMaxTriangles);
 }
 
 Result<MeshDistances> measureMeshes(const ShownPairs& pairs, double maximum, bool progress) {
@@ -226,7 +226,7 @@ void drawClosest(Picture& picture, const MeshDistances& distances, const Mat4& c
         for (const Point& end : {*from, *to}) {
             canvas.dot(end, 4.5 * unit, kInk);
         }
-        // Never more than is certain.
+        // Rounds down: shows only certain distance.
         const std::string length = number(std::floor(100 * pair.bounds.lower) / 100) + " mm";
         drawText(canvas, length, text,
                  {(from->x + to->x) / 2 + 0.6 * text, (from->y + to->y) / 2 + capitalHeight(text) / 2});

@@ -17,7 +17,7 @@ inline constexpr double kDefaultShownDistance = 20;
 struct MeshDistances {
     double maximum = kDefaultShownDistance;   ///< mm, of the colours
     std::vector<std::vector<Colour>> colours; ///< of the vertices: by the distance of each vertex
-    std::vector<PairDistance> pairs;          ///< of the whole mesh, with the closest points
+    std::vector<PairDistance> pairs;          ///< of the whole mesh, with witness points
 };
 
 /// Returns the mesh with vertices dense enough for such colours.
@@ -29,7 +29,7 @@ struct MeshDistances {
 /// Returns the legend of the colours: 0 to `maximum`.
 [[nodiscard]] Legend distanceLegend(double maximum);
 
-/// Draws the segment between the closest points of each pair, with its length.
+/// Draws the segment between the witness points of each pair, with its length.
 void drawClosest(Picture& picture, const MeshDistances& distances, const Mat4& clip_from_world);
 
 } // namespace voxtact::app

@@ -15,8 +15,8 @@ namespace voxtact::app {
 namespace {
 
 constexpr const char* kRenderFooter =
-    R"(Ray casting; opacities apply to 1 mm of material. --show uses the picture's
-opacity: contacts and discarded by pixel, triangles certified.
+    R"(Opacities apply to 1 mm of material. --show uses the picture's opacity. It tests
+contacts and discarded per pixel; triangles are certified.
 
 Examples:
   voxtact render --volume head.nii.gz --preset mr -o head.png
@@ -30,7 +30,7 @@ std::optional<std::uint32_t> wholeNumber(std::string_view text) {
     return error == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
 }
 
-/// "3", "0,2,5-9" or "all".
+/// Parses "3", "0,2,5-9" or "all".
 std::optional<PoseChoice> parsePoses(std::string_view text) {
     PoseChoice choice;
     if (text == "all") {
@@ -59,8 +59,7 @@ void addPoseOption(CLI::App& parser, RenderOptions& options) {
         parser, "--pose",
         [&options](const std::string& text) -> std::optional<std::string> {
             options.poses = parsePoses(text);
-            return options.poses ? std::nullopt
-                                 : std::optional<std::string>("is not all, nor numbers and ranges like 0,3,5-9");
+            return options.poses ? std::nullopt : std::optional<std::string>("is neither all nor a list like 0,3,5-9");
         },
         "indices in --poses, like 0,3,5-9, or all; default: 0", "LIST");
 }
@@ -125,7 +124,7 @@ void addCutOptions(CLI::App& parser, RenderOptions& options) {
 void addAnnotationOptions(CLI::App& parser, RenderOptions& options) {
     parser.add_flag_callback(
         "--annotate", [&options] { options.annotate = true; },
-        "title, sides, scale and legend; default: from 320x320 on");
+        "add title, sides, scale and legend; default: if at least 320x320");
     parser.add_flag_callback(
         "--no-annotate", [&options] { options.annotate = false; }, "omit title, sides, scale and legend");
     parser.get_option("--no-annotate")->excludes("--annotate");
@@ -137,14 +136,14 @@ void addAnnotationOptions(CLI::App& parser, RenderOptions& options) {
 Result<void> checkViewpoint(const RenderOptions& options) {
     const bool turned = options.azimuth || options.elevation;
     if (!options.view.camera.empty() && (turned || !options.viewName.empty())) {
-        return badArgument("--camera says where the eye is; leave out --view, --azimuth and --elevation");
+        return badArgument("--camera sets the eye; leave out --view, --azimuth and --elevation");
     }
     if (turned && !options.viewName.empty()) {
-        return badArgument("--view says where the eye is; leave out --azimuth and --elevation");
+        return badArgument("--view sets the eye; leave out --azimuth and --elevation");
     }
     if (options.slice && options.slice->name != "view" && (turned || !options.viewName.empty())) {
         return badArgument("--slice " + options.slice->text +
-                           " says where the eye is; leave out --view, --azimuth and --elevation, or ask for view");
+                           " sets the eye; leave out --view, --azimuth and --elevation, or use --slice view");
     }
     return {};
 }
@@ -181,28 +180,28 @@ void addRenderOptions(CLI::App& parser, RenderOptions& options) {
 
 Result<void> checkRenderOptions(const RenderOptions& options) {
     if (options.volumes.size() != 1) {
-        return badArgument("one --volume is needed, not several");
+        return badArgument("--volume: a picture needs exactly one; leave out the others");
     }
     if (options.output.extension() != ".png" && options.output.extension() != ".PNG") {
-        return badArgument("--output " + options.output.string() + ": the ending of a picture is .png");
+        return badArgument("--output: the ending of '" + options.output.string() + "' must be .png");
     }
     VOXTACT_TRY(checkViewpoint(options));
     VOXTACT_TRY(checkShowOptions(options.show));
     if (options.meshes.sources.empty() && (!options.view.poses.empty() || options.poses)) {
-        return badArgument("--poses and --pose are for a mesh; --mesh is missing");
+        return badArgument("--poses and --pose need a mesh; add --mesh");
     }
     if (options.meshes.sources.empty() && !options.meshColours.empty()) {
-        return badArgument("--mesh-colour is for a mesh; --mesh is missing");
+        return badArgument("--mesh-colour needs a mesh; add --mesh");
     }
     if (options.slice && options.device.validate) {
-        return badArgument("--validate: a slice is drawn without Vulkan, there is nothing to validate; leave it out");
+        return badArgument("--validate: a slice uses no Vulkan; leave out --validate");
     }
     if (options.meshColours.size() > std::max<std::size_t>(options.meshes.sources.size(), 1)) {
         return badArgument("--mesh-colour is given " + std::to_string(options.meshColours.size()) + " times, --mesh " +
                            std::to_string(options.meshes.sources.size()) + " times");
     }
     if (options.clips.size() > kMaxClipPlanes) {
-        return badArgument("--clip is given " + std::to_string(options.clips.size()) + " times, the most is " +
+        return badArgument("--clip is given " + std::to_string(options.clips.size()) + " times; the maximum is " +
                            std::to_string(kMaxClipPlanes));
     }
     return checkOutputs({{"--output", options.output}},
@@ -212,15 +211,15 @@ Result<void> checkRenderOptions(const RenderOptions& options) {
 std::vector<std::string> unusedNotes(const RenderOptions& options, bool annotated) {
     std::vector<std::string> notes;
     if (options.slice && !options.device.wanted.empty()) {
-        notes.emplace_back("--device: a slice is drawn without one");
+        notes.emplace_back("--device is not used: a slice needs no device");
     }
     const TransferFunctionOptions& function = options.transferFunction;
     if (options.slice && options.show.what.empty() && (function.opacity || !function.path.empty() || function.domain)) {
-        notes.emplace_back("--opacity, --transfer-function, --tf-domain: a slice without --show has gray values, "
-                           "whatever is opaque; they are not used");
+        notes.emplace_back("--opacity, --transfer-function and --tf-domain are not used: a slice without --show "
+                           "shows gray values");
     }
     if (!options.title.empty() && !annotated) {
-        notes.emplace_back("--title: it is written from 320x320 on, or with --annotate");
+        notes.emplace_back("--title is not used: pictures below 320x320 have no text; add --annotate");
     }
     return notes;
 }

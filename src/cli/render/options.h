@@ -47,7 +47,7 @@ struct RenderOptions {
 };
 
 void addRenderOptions(CLI::App& parser, RenderOptions& options);
-/// Checks that the parser cannot make.
+/// Checks that the parser cannot do.
 [[nodiscard]] Result<void> checkRenderOptions(const RenderOptions& options);
 
 /// Returns notes on options without effect on this picture. `annotated`: the picture has text.

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kMiddle = 0.5; // of the depth
 
-/// A letter on a side of the cube, which goes from its middle by `right` and `up`, either way.
+/// Draws a letter on a side of the cube; `right` and `up` are the half sides.
 void drawOnSide(Canvas& canvas, const char* letter, const Point& middle, const Point& right, const Point& up,
                 const Colour& ink) {
     // Size of a mask finer than the picture.
@@ -41,7 +41,7 @@ void drawOnSide(Canvas& canvas, const char* letter, const Point& middle, const P
                 const double dy = out.top + y + (lookY + 0.5) / kLooks - middle.y;
                 const double a = (dx * up.y - dy * up.x) / determinant;
                 const double b = (right.x * dy - right.y * dx) / determinant;
-                // The base line of the mask is at 0, and its letter begins at 0.
+                // Base line and left edge of the mask are at 0.
                 const auto column = static_cast<int>(std::floor(a * kSize / kLetter + width / 2)) - mask.left;
                 const auto row =
                     static_cast<int>(std::floor(-b * kSize / kLetter - capitalHeight(kSize) / 2)) - mask.top;

@@ -16,17 +16,16 @@ struct ScreenAxes {
     Vec3 towardsEye{};
 };
 
-/// Empty for a camera that cannot be inverted.
+/// Returns the directions; empty for a camera that cannot be inverted.
 [[nodiscard]] std::optional<ScreenAxes> screenAxes(const Mat4& clip_from_world);
-/// Millimetres of a pixel; nothing where they are not the same everywhere: in perspective, or where pixels are not
-/// square.
+/// Returns the millimetres per pixel; empty if they vary: in perspective, or for pixels that are not square.
 [[nodiscard]] std::optional<double> pixelSize(const Mat4& clip_from_world, double width, double height);
 
-/// L left, R right, A anterior, P posterior, S superior, I inferior: the nearest, and after it a second that has a
-/// share, too.
+/// Returns the nearest side of the patient, and a second one that has a share: L left, R right, A anterior, P
+/// posterior, S superior, I inferior.
 [[nodiscard]] std::string sideLetters(const Vec3& direction);
 
-/// A cube as the patient lies, with a letter on each side.
+/// Draws a cube oriented like the patient, with a letter on each side.
 void drawCube(Canvas& canvas, const Mat4& clip_from_world, const Box2& box);
 
 } // namespace voxtact::app

@@ -17,13 +17,13 @@ namespace voxtact::app {
 
 namespace {
 
-/// A host may be asked for any size; what a PNG of ours cannot have is refused before the work.
+/// Refuses sizes beyond our PNG writer before the work; the host has no limit of its own.
 Result<void> checkSliceSize(VkExtent2D size) {
-    constexpr std::uint32_t kMostPixels = 16384;
-    if (size.width > kMostPixels || size.height > kMostPixels) {
+    constexpr std::uint32_t kMaxPixels = 16384;
+    if (size.width > kMaxPixels || size.height > kMaxPixels) {
         return badArgument("--size " + std::to_string(size.width) + "x" + std::to_string(size.height) +
-                           " is beyond what a slice may have: " + std::to_string(kMostPixels) + "x" +
-                           std::to_string(kMostPixels));
+                           " exceeds the limit of a slice, " + std::to_string(kMaxPixels) + "x" +
+                           std::to_string(kMaxPixels));
     }
     return {};
 }
@@ -45,7 +45,7 @@ Result<Picture> renderSlice(const RenderOptions& options, const RenderInputs& in
     scene.window = window;
     scene.background = options.background;
     scene.threshold = options.transferFunction.threshold;
-    // Pixels per outline in a picture of a screen's size; finer in smaller ones.
+    // Picture pixels per pixel of outline thickness.
     constexpr double kPixelsOfOutline = 300;
     scene.thickness = std::max(1.0, std::min(options.view.size.width, options.view.size.height) / kPixelsOfOutline);
     std::vector<std::vector<std::uint32_t>> touching(inputs.meshes.size() * inputs.poses.size());
@@ -71,7 +71,7 @@ Result<Picture> renderSlice(const RenderOptions& options, const RenderInputs& in
     return makeSlice(scene, options.view.size);
 }
 
-/// On the device. The validation's messages are complete once everything on it has ended.
+/// Draws on the device. Validation messages are complete after all device objects are destroyed.
 Result<Picture> renderVolume(const RenderOptions& options, const RenderInputs& inputs, Outcome& invalid) {
     std::shared_ptr<const device::ValidationMessages> messages;
     Result<Picture> picture = [&]() -> Result<Picture> {
@@ -121,7 +121,7 @@ Outcome runRender(const RenderOptions& options) {
     for (const std::string& note : unusedNotes(options, inputs->room.has_value())) {
         printNote(note);
     }
-    const InterruptGuard guard; // a signal before leaves nothing behind either
+    const InterruptGuard guard; // an earlier signal also leaves no file
     const Outcome outcome = drawAndWrite(options, *inputs);
     // Otherwise the file was complete before the signal.
     return interrupted() && outcome.status != kExitDone ? interruptOutcome("nothing is written") : outcome;

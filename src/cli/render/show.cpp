@@ -62,9 +62,10 @@ Result<std::vector<std::vector<std::uint32_t>>> touchingTriangles(const ShownPai
 }
 
 void addShowOptions(CLI::App& parser, ShowOptions& options) {
-    addName(parser, "--show", options.what, {"contacts", "discarded", "triangles", "distance"},
-            "paint on the mesh: contacts (passing pixels, red), discarded (others, blue), triangles (certain touches, "
-            "red), distance (to the opaque region)");
+    addName(
+        parser, "--show", options.what, {"contacts", "discarded", "triangles", "distance"},
+        "paint on the mesh: contacts (passing pixels, red), discarded (others, blue), triangles (certified touches, "
+        "red), distance (to the opaque region)");
     addNumber(
         parser, "--through", [&options](double part) { options.through = part; },
         "visibility of the paint through the tissue in front; default: " + number(throughFor(Paint::Contacts)) +
@@ -82,7 +83,7 @@ void addShowOptions(CLI::App& parser, ShowOptions& options) {
 
 Result<void> checkShowOptions(const ShowOptions& options) {
     if (options.maximum && !options.isDistance()) {
-        return badArgument("--max-distance is for --show distance");
+        return badArgument("--max-distance needs --show distance");
     }
     return {};
 }

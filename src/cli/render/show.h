@@ -21,26 +21,25 @@ namespace voxtact::app {
 struct ShowOptions {
     std::string what; ///< empty: nothing
     std::optional<double> through;
-    std::optional<double> maximum; ///< mm, of the last colour
+    std::optional<double> maximum; ///< distance of the last colour, mm
 
     [[nodiscard]] bool isDistance() const { return what == "distance"; }
 };
 
-/// --show, --through and --max-distance, and that they and --opacity-threshold need what they are about. After those
-/// options.
+/// Adds --show, --through and --max-distance, and their dependencies with --opacity-threshold. Call after the options
+/// that they depend on.
 void addShowOptions(CLI::App& parser, ShowOptions& options);
-/// Checks that the parser cannot make.
+/// Checks that the parser cannot do.
 [[nodiscard]] Result<void> checkShowOptions(const ShowOptions& options);
 
-/// The triangles that touch for certain, by the projection certified on the host: of each mesh at each pose, mesh by
-/// mesh.
+/// Returns the triangles with a certified touch, computed on the host: of each mesh at each pose, mesh by mesh.
 [[nodiscard]] Result<std::vector<std::vector<std::uint32_t>>> touchingTriangles(const ShownPairs& pairs, bool progress);
 
 /// Objects that MeshPaints reference. Must outlive the picture.
 struct ShowObjects {
     std::optional<TransferFunction> transferFunction{};
     std::vector<PaintedTriangles> triangles{}; ///< of each mesh at each pose, mesh by mesh
-    std::vector<PaintedVertices> vertices{};   ///< the same
+    std::vector<PaintedVertices> vertices{};   ///< likewise
 };
 
 /// Uploads the colours of `distances`, or decides and uploads the touched triangles.

@@ -20,7 +20,7 @@ constexpr std::size_t kChannels = 4;
 
 struct Named {
     const char* name;
-    ViewDirection direction; ///< as radiologists look: from the feet, the face, the left ear
+    ViewDirection direction; ///< radiological: from the feet, the face, the left ear
     std::size_t axis;
 };
 constexpr Named kNamed[] = {{"axial", {0, -90}, 2}, {"coronal", {0, 0}, 1}, {"sagittal", {90, 0}, 0}};
@@ -31,7 +31,7 @@ const Named* named(const std::string& name) {
     return found != std::end(kNamed) ? found : nullptr;
 }
 
-/// The volume's values between its voxels, trilinear, the last ones going on.
+/// Trilinear values of a volume; the border voxels extend outwards.
 template <class Voxel> class Sampler {
   public:
     Sampler(const Grid& grid, const Voxel* voxels) : grid_(grid), voxels_(voxels) {}
@@ -66,7 +66,7 @@ template <class Voxel> class Sampler {
     const Voxel* voxels_;
 };
 
-/// Opacities of values, as a detector looks them up.
+/// Opacities of values, looked up like a detector does.
 class Opacities {
   public:
     Opacities(std::vector<float> table, const ValueRange& domain) : table_(std::move(table)), domain_(domain) {}
@@ -90,7 +90,7 @@ bool isInside(const Vec3& texture) {
     return std::ranges::all_of(texture, [](double x) { return x >= 0 && x <= 1; });
 }
 
-/// Makes one slice of voxels of one type.
+/// Draws a slice of voxels of one type.
 template <class Voxel> class SliceMaker {
   public:
     SliceMaker(const SliceScene& scene, VkExtent2D size, const Voxel* voxels, const Mat4& texture_from_world,
@@ -189,7 +189,7 @@ template <class Voxel> class SliceMaker {
         }
     }
 
-    /// A triangle's cut, in pieces of a pixel where each is decided for itself.
+    /// Draws the cut of a triangle; where colours vary, in pieces of a pixel.
     void drawCut(Canvas& canvas, const Vec3& from, const Vec3& to, const Colour& plain, bool touching) const {
         const Point a = pixelOf(from);
         const Point b = pixelOf(to);
@@ -238,7 +238,7 @@ std::optional<std::string> parseSlice(const std::string& text, SliceOption& slic
     if (colon != std::string::npos) {
         slice.at = parseFinite(std::string_view(text).substr(colon + 1));
         if (!slice.at) {
-            return "has no number of millimetres behind its colon";
+            return "has no number (mm) after its colon";
         }
     }
     return std::nullopt;
@@ -250,7 +250,7 @@ Result<SlicePlane> slicePlane(const SliceOption& slice, const ViewDirection& vie
     SlicePlane plane;
     plane.direction = one != nullptr ? one->direction : view;
     plane.towardsEye = towardsEye(plane.direction);
-    // Coordinate of --slice: of the world, or from the volume's middle towards the eye.
+    // Coordinate of --slice: world, or from the volume's middle towards the eye.
     const Vec3 middle = transformPoint(worldFromTexture(grid), {0.5, 0.5, 0.5});
     const double sign = one != nullptr && plane.towardsEye[one->axis] < 0 ? -1 : 1;
     const double zero = one != nullptr ? 0 : dot(plane.towardsEye, middle);
@@ -274,8 +274,8 @@ Result<SlicePlane> slicePlane(const SliceOption& slice, const ViewDirection& vie
     plane.shown = slice.at.value_or(plane.shown);
     if (!(plane.shown >= reach.lo && plane.shown <= reach.hi)) {
         const auto tenth = [](double x) { return number(std::round(10 * x) / 10); };
-        return badArgument("--slice " + slice.text + " is outside of the volume, which is there from " +
-                           tenth(reach.lo) + " to " + tenth(reach.hi) + " mm");
+        return badArgument("--slice " + slice.text + " is outside the volume, which reaches from " + tenth(reach.lo) +
+                           " to " + tenth(reach.hi) + " mm");
     }
     plane.offset = zero + sign * plane.shown;
     return plane;
@@ -298,13 +298,13 @@ Result<Picture> makeSlice(const SliceScene& scene, VkExtent2D size) {
 }
 
 ValueRange usualWindow(const VolumeView& volume, const ValueRange& values) {
-    constexpr std::size_t kMost = 1 << 20; // maximum number of sampled voxels
+    constexpr std::size_t kMaxVoxels = 1 << 20; // to sample
     constexpr double kDark = 0.005;
     constexpr double kBright = 0.997;
     std::vector<double> seen;
     visitVoxels(volume, [&](const auto* voxels) {
         const auto count = static_cast<std::size_t>(voxelCount(volume.grid));
-        const std::size_t step = count / kMost + 1;
+        const std::size_t step = count / kMaxVoxels + 1;
         for (std::size_t i = 0; i < count; i += step) {
             seen.push_back(static_cast<double>(voxels[i]));
         }

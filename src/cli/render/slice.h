@@ -11,29 +11,29 @@
 #include <string>
 #include <vector>
 
-/// Gray pictures of a plane through a volume, and the outlines of meshes in it: made on the host, without any device.
+/// Gray pictures of a plane through a volume, with outlines of meshes. Drawn on the host, without a device.
 namespace voxtact::app {
 
-/// --slice.
+/// Value of --slice.
 struct SliceOption {
-    std::string text;         ///< as it was given
-    std::string name;         ///< axial, coronal, sagittal, or view: at right angles to the view
+    std::string text;         ///< as given
+    std::string name;         ///< axial, coronal, sagittal, or view: perpendicular to the view
     std::optional<double> at; ///< mm
 };
 
 /// Returns the error of a text, if any.
 [[nodiscard]] std::optional<std::string> parseSlice(const std::string& text, SliceOption& slice);
 
-/// A plane of world space, as the eye sees it.
+/// A plane in world space and the direction to the eye.
 struct SlicePlane {
-    ViewDirection direction; ///< from where
-    Vec3 towardsEye{};       ///< its normal, of unit length
+    ViewDirection direction; ///< towards the eye
+    Vec3 towardsEye{};       ///< unit normal
     double offset = 0;       ///< of its points along the normal
-    double shown = 0;        ///< the same as --slice takes it
+    double shown = 0;        ///< offset in the coordinate of --slice
 };
 
-/// `view`: where a slice `view` is seen from. `mesh`: through its middle the slice goes where no place is given,
-/// if that is in the volume. Refuses a place outside of the volume.
+/// Returns the plane of a slice. `view`: the direction of a slice `view`. `mesh`: without a position, the slice goes
+/// through the middle of this box if that is in the volume. Refuses a position outside the volume.
 [[nodiscard]] Result<SlicePlane> slicePlane(const SliceOption& slice, const ViewDirection& view, const Grid& grid,
                                             const std::optional<Box>& mesh);
 
@@ -53,8 +53,8 @@ struct SliceScene {
     ValueRange window{};    ///< from black to white
     Colour background{};
     std::vector<SliceMesh> meshes;
-    /// Tints values at or above the threshold; there outlines have the contact colour, elsewhere `elsewhere` or the
-    /// mesh's own.
+    /// Tints values at or above the threshold. Outlines have the contact colour there; elsewhere `elsewhere` or the
+    /// mesh colour.
     std::optional<TransferFunctionDesc> transferFunction;
     double threshold = 0;
     Colour contactColour = MeshPaint{}.contactColour;

@@ -34,8 +34,8 @@ CertifiedCounters together(const CertifiedCounters& a, const CertifiedCounters& 
         out.*total += b.*total;
     }
     out.rounds += b.rounds;
-    for (const auto peak : {&C::room, &C::mostClusters, &C::mostRuns, &C::mostParts, &C::mostCells, &C::mostOpen,
-                            &C::mostLeft, &C::mostLooks, &C::mostLooksLeft}) {
+    for (const auto peak : {&C::room, &C::peakClusters, &C::peakRuns, &C::peakParts, &C::peakCells, &C::peakOpen,
+                            &C::peakLeft, &C::peakTests, &C::peakTestsLeft}) {
         out.*peak = std::max(out.*peak, b.*peak);
     }
     return out;

@@ -5,6 +5,7 @@
 #include "core/base/text.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace voxtact {
 
@@ -17,14 +18,24 @@ std::string withUnit(const std::string& text, const Fact& fact) {
 } // namespace
 
 std::string rangeText(const Fact& fact) {
+    if (fact.kind == FactKind::Flag || fact.kind == FactKind::Choice) {
+        return std::string(fact.kind == FactKind::Flag ? "0 or 1" : fact.choices);
+    }
+    if (fact.kind == FactKind::Numbers || fact.kind == FactKind::Labels) {
+        return "a list";
+    }
     const std::string least = number(fact.min);
-    if (fact.max < kInfinity) {
+    if (fact.max < kMaxWhole) {
         return "from " + least + " to " + withUnit(number(fact.max), fact);
     }
     return fact.isMinAllowed ? "from " + withUnit(least, fact) + " on" : "above " + withUnit(least, fact);
 }
 
 bool isInRange(const Fact& fact, double value) noexcept {
+    const bool isWhole = fact.kind == FactKind::Whole || fact.kind == FactKind::Flag;
+    if (isWhole && value != std::floor(value)) {
+        return false;
+    }
     const bool isLow = fact.isMinAllowed ? !(value >= fact.min) : !(value > fact.min);
     return !isLow && value <= fact.max && (value < kInfinity || fact.isInfinityAllowed);
 }
@@ -35,7 +46,12 @@ Result<void> checkFact(const Fact& fact, double value) {
     }
     std::string name(fact.name);
     std::ranges::replace(name, '_', ' ');
-    return refuse("the " + name + " " + withUnit(number(value), fact) + " is not a number " + rangeText(fact));
+    const bool isFlag = fact.kind == FactKind::Flag;
+    return refuse("the " + name + " " + withUnit(number(value), fact) +
+                  (isFlag                         ? " is not "
+                   : fact.kind == FactKind::Whole ? " is not a whole number "
+                                                  : " is not a number ") +
+                  rangeText(fact));
 }
 
 } // namespace voxtact

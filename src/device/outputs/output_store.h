@@ -2,7 +2,7 @@
 #pragma once
 
 #include "device/outputs/output_parts.h"
-#include "vulkan/memory.h"
+#include "vulkan/memory/memory.h"
 
 #include <memory>
 

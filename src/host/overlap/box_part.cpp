@@ -131,55 +131,73 @@ BoxMeasure::Share BoxMeasure::shareOf(const CellPartBox& box, const SheetList& s
 
 namespace {
 
-/// A corner of a sheet: its place, how far it is to the plane behind it, and the linear values here and there.
+/// A corner of a sheet: its place, and its distance to the plane behind it. Uninitialised, to save time.
 struct Corner {
-    double y = 0;
-    double z = 0;
-    double way = 0;
-    double near = 0;
-    double far = 0;
+    double y;
+    double z;
+    double depth;
 };
 
-double volumeBehind(const Corner* corners, std::uint32_t count) noexcept {
-    double sum = 0;
-    for (std::uint32_t i = 2; i < count; ++i) {
-        const Corner& a = corners[0];
-        const Corner& b = corners[i - 1];
-        const Corner& c = corners[i];
-        sum += ((b.y - a.y) * (c.z - a.z) - (b.z - a.z) * (c.y - a.y)) * (a.way + b.way + c.way);
+/// A corner with the linear values there and on the plane behind it.
+struct ValueCorner : Corner {
+    double near;
+    double far;
+};
+
+/// The signed volume behind a polygon, added up corner by corner.
+class Fan {
+  public:
+    void add(const Corner& corner) noexcept {
+        if (count_ == 0) {
+            first_ = corner;
+        } else if (count_ > 1) {
+            sum_ += ((last_.y - first_.y) * (corner.z - first_.z) - (last_.z - first_.z) * (corner.y - first_.y)) *
+                    (first_.depth + last_.depth + corner.depth);
+        }
+        last_ = corner;
+        ++count_;
     }
-    return sum / 6;
+    [[nodiscard]] double volume() const noexcept { return sum_ / 6; }
+
+  private:
+    Corner first_;
+    Corner last_;
+    std::uint32_t count_ = 0;
+    double sum_ = 0;
+};
+
+double volumeBehind(const ValueCorner* corners, std::uint32_t count) noexcept {
+    Fan fan;
+    std::for_each_n(corners, count, [&](const Corner& corner) { fan.add(corner); });
+    return fan.volume();
 }
 
 /// If the values grow along the path (slope > 0), the whole path counts if it begins at `from` or above, else the part
 /// beyond `from`; and vice versa.
-double volumeFrom(const Corner* corners, std::uint32_t count, double slope, double from) noexcept {
+double volumeFrom(const ValueCorner* corners, std::uint32_t count, double slope, double from) noexcept {
     const double inverse = 1 / std::abs(slope);
-    std::array<Corner, 2 * Sheet::kMax + 2> all;
-    std::array<Corner, 2 * Sheet::kMax + 2> part;
-    std::uint32_t allCount = 0;
-    std::uint32_t partCount = 0;
-    const auto least = [&](const Corner& at) { return (slope > 0 ? at.near : at.far) - from; };
-    const auto greatest = [&](const Corner& at) { return (slope > 0 ? at.far : at.near) - from; };
+    Fan all;
+    Fan part;
+    const auto least = [&](const ValueCorner& at) { return (slope > 0 ? at.near : at.far) - from; };
+    const auto greatest = [&](const ValueCorner& at) { return (slope > 0 ? at.far : at.near) - from; };
     const auto between = [](const Corner& a, const Corner& b, double heightA, double heightB) {
         const double t = heightA / (heightA - heightB);
-        return Corner{a.y + t * (b.y - a.y), a.z + t * (b.z - a.z), a.way + t * (b.way - a.way),
-                      a.near + t * (b.near - a.near), a.far + t * (b.far - a.far)};
+        return Corner{a.y + t * (b.y - a.y), a.z + t * (b.z - a.z), a.depth + t * (b.depth - a.depth)};
     };
     const auto addPart = [&](Corner at, double height) {
-        at.way = slope == 0 ? 0 : std::clamp(height * inverse, 0.0, std::max(at.way, 0.0));
-        part[partCount++] = at;
+        at.depth = slope == 0 ? 0 : std::clamp(height * inverse, 0.0, std::max(at.depth, 0.0));
+        part.add(at);
     };
     // Along a side both heights are linear, so the cuts of a side are in order.
     for (std::uint32_t i = 0; i < count; ++i) {
-        const Corner& a = corners[i];
-        const Corner& b = corners[i + 1 == count ? 0 : i + 1];
+        const ValueCorner& a = corners[i];
+        const ValueCorner& b = corners[i + 1 == count ? 0 : i + 1];
         const double leastA = least(a);
         const double leastB = least(b);
         const double greatestA = std::max(greatest(a), leastA);
         const double greatestB = std::max(greatest(b), leastB);
         if (leastA >= 0) {
-            all[allCount++] = a;
+            all.add(a);
         }
         if (leastA < 0 && greatestA >= 0) {
             addPart(a, greatestA);
@@ -188,8 +206,8 @@ double volumeFrom(const Corner* corners, std::uint32_t count, double slope, doub
         const bool cutsGreatest = (greatestA >= 0) != (greatestB >= 0);
         const auto cutLeast = [&] {
             const Corner at = between(a, b, leastA, leastB);
-            all[allCount++] = at;
-            part[partCount++] = at; // with all of the way
+            all.add(at);
+            part.add(at); // at its whole depth
         };
         if (cutsLeast && leastA >= 0) {
             cutLeast();
@@ -201,8 +219,7 @@ double volumeFrom(const Corner* corners, std::uint32_t count, double slope, doub
             cutLeast();
         }
     }
-    return (allCount > 2 ? volumeBehind(all.data(), allCount) : 0) +
-           (partCount > 2 ? volumeBehind(part.data(), partCount) : 0);
+    return all.volume() + part.volume();
 }
 
 /// The opaque part of a volume. `from(value, sign)` is its part with that value or more: certainly where `sign` is 1,
@@ -242,16 +259,16 @@ BoxMeasure::Behind BoxMeasure::behind(Values& values, const Sheet& sheet, double
         hi = glm::max(hi, sheet.corners[i]);
     }
     values.setBox(lo, {end, hi.y, hi.z});
-    std::array<Corner, Sheet::kMax> corners;
+    std::array<ValueCorner, Sheet::kMax> corners; // uninitialised, to save time
     double least = kInfinity;
     double greatest = -kInfinity;
     const auto setValues = [&](const dvec3& slope, double middle) {
         const dvec3 by = slope / values.half;
-        const double way = by.x * (end - values.centre.x);
+        const double atEnd = by.x * (end - values.centre.x);
         for (std::uint32_t i = 0; i < sheet.count; ++i) {
             const dvec3 at = sheet.corners[i] - values.centre;
             const double aside = middle + by.y * at.y + by.z * at.z;
-            corners[i] = {at.y, at.z, end - sheet.corners[i].x, aside + by.x * at.x, aside + way};
+            corners[i] = {{at.y, at.z, end - sheet.corners[i].x}, aside + by.x * at.x, aside + atEnd};
         }
     };
     setValues(values.slope, values.middle);
@@ -274,11 +291,16 @@ BoxMeasure::Behind BoxMeasure::behind(Values& values, const Sheet& sheet, double
         out.isRounding = !some.known;
         return out;
     }
+    LinearSign linear;
+    double linearOf = std::nan("");
     const ValueRange found = opaqueIn(some, least, greatest, volume, [&](double value, double sign) {
-        const LinearSign linear = linearSign(values.terms, value);
-        setValues(linear.slope, linear.middle);
-        out.bent = linear.bent;
-        out.isRounding = out.isRounding && linear.off <= 8 * values.error;
+        if (value != linearOf) {
+            linear = linearSign(values.terms, value);
+            linearOf = value;
+            setValues(linear.slope, linear.middle);
+            out.bent = linear.bent;
+            out.isRounding = out.isRounding && linear.off <= 8 * values.error;
+        }
         const double off = linear.off + 4 * values.error; // more than by the steepness where that changes by half
         return std::min(std::abs(volumeFrom(corners.data(), sheet.count, linear.slope.x / values.half.x, sign * off)),
                         volume);

@@ -25,18 +25,19 @@ class OutsideScan {
     /// For the requested sums. Tests bricks near the surface first, which usually decide.
     std::vector<Elsewhere> run() {
         const BrickBox around = surface_.bricks();
-        for (const bool beside : {true, false}) {
+        for (const bool isOutside : {true, false}) {
             const auto& count = volume_.bricks.count;
             for (std::int32_t z = 0; z < count[2] && left_ > 0; ++z) {
                 for (std::int32_t y = 0; y < count[1] && left_ > 0; ++y) {
                     for (std::int32_t x = 0; x < count[0] && left_ > 0; ++x) {
                         const NodePlace brick{x, y, z};
-                        bool isBeside = false;
+                        bool isOutsideBox = false;
                         for (std::size_t axis = 0; axis < 3; ++axis) {
-                            isBeside = isBeside || brick[axis] < around.lo[axis] || brick[axis] > around.hi[axis];
+                            isOutsideBox =
+                                isOutsideBox || brick[axis] < around.lo[axis] || brick[axis] > around.hi[axis];
                         }
-                        if (isBeside == beside) {
-                            scan(brick, beside);
+                        if (isOutsideBox == isOutside) {
+                            scan(brick, isOutside);
                         }
                     }
                 }
@@ -46,13 +47,13 @@ class OutsideScan {
     }
 
   private:
-    void scan(const NodePlace& brick, bool isBeside) {
+    void scan(const NodePlace& brick, bool isOutsideBox) {
         const std::size_t number = part_.part.occupancy.brickNumber(brick);
         if (part_.kind(number) == OverlapPart::Kind::Clear) {
             return;
         }
-        if (isBeside && labels_ == nullptr) {
-            add(0, false, true); // OverlapPart::isCertainBeside() excluded a certain one
+        if (isOutsideBox && labels_ == nullptr) {
+            add(0, false, true); // OverlapPart::isCertainOutside() excluded a certain one
             return;
         }
         NodePlace first{};
@@ -64,13 +65,13 @@ class OutsideScan {
         for (std::int32_t z = first[2]; z <= last[2]; ++z) {
             for (std::int32_t y = first[1]; y <= last[1]; ++y) {
                 for (std::int32_t x = first[0]; x <= last[0] && left_ > 0; ++x) {
-                    scanCell({x, y, z}, isBeside);
+                    scanCell({x, y, z}, isOutsideBox);
                 }
             }
         }
     }
 
-    void scanCell(const NodePlace& cell, bool isBeside) {
+    void scanCell(const NodePlace& cell, bool isOutsideBox) {
         SlotOctants octants{};
         if (labels_ != nullptr) {
             octants = labels_->octantsOf(cell);
@@ -78,7 +79,7 @@ class OutsideScan {
                 return;
             }
         }
-        if (!isBeside && surface_.at(cell) != PairSurface::Place::Outside) {
+        if (!isOutsideBox && surface_.at(cell) != PairSurface::Place::Outside) {
             return; // what is crossed was measured
         }
         const OverlapPart::Kind kind = part_.kind(volume_, cell);

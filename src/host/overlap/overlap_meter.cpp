@@ -203,8 +203,12 @@ OverlapAnswer answerOf(const Overlap& question, const Items& items, const std::v
         answer.pairs.push_back(
             {one.pair, one.item, one.pose, found.whole.bounds, found.solid, found.whole.inside, found.whole.end});
         for (std::size_t band = 0; band < found.bands.size(); ++band) {
-            answer.bands.push_back({one.pair, one.item, one.pose, static_cast<std::uint32_t>(band),
-                                    found.bands[band].bounds, found.bands[band].end});
+            BandOverlap& out = answer.bands.emplace_back(BandOverlap{
+                .pair = one.pair, .item = one.item, .pose = one.pose, .band = static_cast<std::uint32_t>(band)});
+            out.from = band == 0 ? out.from : question.bandLimits[band - 1];
+            out.below = band == question.bandLimits.size() ? out.below : question.bandLimits[band];
+            out.bounds = found.bands[band].bounds;
+            out.end = found.bands[band].end;
         }
         for (std::size_t i = 0; i < question.labels.size(); ++i) {
             const std::uint16_t slot = items.items[one.item].labels->ofAsked[i];

@@ -127,7 +127,7 @@ class PairRun {
     std::vector<Measure> measure(const OverlapPart& part, const OverlapLabels* labels) {
         OverlapGoal own = goal(1);
         own.error = 2 * error_ / std::max(voxel_.value - voxel_.error, 0.0) + 0x1p-40;
-        own.isSomeOutside = labels == nullptr && part.isCertainBeside(volume_, surface_.bricks());
+        own.isSomeOutside = labels == nullptr && part.isCertainOutside(volume_, surface_.bricks());
         const std::vector<OverlapFound> found = measureOverlap(volume_, part, surface_, labels, own);
         std::vector<Measure> out(found.size());
         if (isCancelled(cancel_)) {

@@ -58,7 +58,7 @@ OverlapPart::OverlapPart(const VolumeImpl& volume, const TransferFunctionImpl& f
     }
 }
 
-bool OverlapPart::isCertainBeside(const VolumeImpl& volume, const BrickBox& box) const {
+bool OverlapPart::isCertainOutside(const VolumeImpl& volume, const BrickBox& box) const {
     const auto& count = volume.bricks.count;
     std::size_t number = 0;
     for (std::int32_t z = 0; z < count[2]; ++z) {

@@ -63,7 +63,7 @@ class OverlapPart {
     /// Estimated number of boxes of this level.
     [[nodiscard]] static std::uint64_t boxesOf(unsigned level) noexcept { return std::uint64_t{4} << (4 * level); }
     /// Returns true if a brick outside the box certainly contains an opaque point.
-    [[nodiscard]] bool isCertainBeside(const VolumeImpl& volume, const BrickBox& box) const;
+    [[nodiscard]] bool isCertainOutside(const VolumeImpl& volume, const BrickBox& box) const;
 
     OpaquePart part;
 

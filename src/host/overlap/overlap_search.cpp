@@ -415,7 +415,7 @@ class OverlapSearch {
         }
         const double middle = box.cell[static_cast<std::size_t>(axis)] + 0.5;
         const std::size_t upper = octant | std::size_t{1} << static_cast<unsigned>(axis);
-        if (box.lo[axis] >= middle || box.hi[axis] <= middle) { // beside the image's faces
+        if (box.lo[axis] >= middle || box.hi[axis] <= middle) { // on one side: a cell at a face of the image
             addAlong(box, std::move(sheets), base, axis + 1, box.lo[axis] >= middle ? upper : octant, octants);
             return;
         }

@@ -124,9 +124,10 @@ bool vertexShared(const std::array<dvec3, 2>& a, const std::array<dvec3, 2>& b) 
                 return true;
             }
         }
-        const Axis besideA = crossed(normalA, a[i]);
-        const Axis besideB = crossed(normalB, b[i]);
-        if (besideA.sign(a[1 - i]) * sameSide(besideA, b) < 0 || besideB.sign(b[1 - i]) * sameSide(besideB, a) < 0) {
+        const Axis edgeNormalA = crossed(normalA, a[i]);
+        const Axis edgeNormalB = crossed(normalB, b[i]);
+        if (edgeNormalA.sign(a[1 - i]) * sameSide(edgeNormalA, b) < 0 ||
+            edgeNormalB.sign(b[1 - i]) * sameSide(edgeNormalB, a) < 0) {
             return true;
         }
     }
@@ -139,8 +140,8 @@ bool sideShared(const dvec3& side, const dvec3& a, const dvec3& b) noexcept {
     if (normal.sign(b) != 0) {
         return true;
     }
-    const Axis beside = crossed(normal, side);
-    return beside.sign(a) * beside.sign(b) < 0;
+    const Axis sideNormal = crossed(normal, side);
+    return sideNormal.sign(a) * sideNormal.sign(b) < 0;
 }
 
 } // namespace

@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <tuple>
+#include <utility>
 
 namespace voxtact::cpu {
 
@@ -79,8 +81,11 @@ class PieceCut {
         const double along1 = glm::dot(plane.normal, side1_);
         const double along2 = glm::dot(plane.normal, side2_);
         const double slack = kInPlane * (glm::length(corner_ - plane.point) + size_);
-        std::vector<UvPolygon> parts;
-        for (const UvPolygon& part : parts_) {
+        std::vector<UvPolygon> left = std::move(parts_);
+        parts_.clear();
+        while (!left.empty()) {
+            const UvPolygon part = left.back();
+            left.pop_back();
             Heights heights{};
             double least = 0;
             double greatest = 0;
@@ -89,20 +94,37 @@ class PieceCut {
                 least = std::min(least, heights[i]);
                 greatest = std::max(greatest, heights[i]);
             }
+            if (least >= -slack || greatest <= slack || !mayMeet(part, other)) {
+                parts_.push_back(part);
+                continue;
+            }
             UvPolygon below;
             UvPolygon above;
-            if (least >= -slack || greatest <= slack || !mayMeet(part, other) ||
-                !split(part, heights, slack, below, above)) {
-                parts.push_back(part);
-                continue;
+            const bool isCut = split(part, heights, slack, below, above);
+            if (!isCut) { // no room for more corners
+                std::tie(below, above) = halvesOf(part);
             }
             for (const UvPolygon& half : {below, above}) {
                 if (!half.empty()) {
-                    parts.push_back(half);
+                    (isCut ? parts_ : left).push_back(half);
                 }
             }
         }
-        parts_ = std::move(parts);
+    }
+
+    /// Divides a polygon between two of its corners.
+    static std::pair<UvPolygon, UvPolygon> halvesOf(const UvPolygon& whole) {
+        const std::uint32_t middle = whole.count / 2;
+        UvPolygon first;
+        UvPolygon second;
+        for (std::uint32_t i = 0; i <= middle; ++i) {
+            first.corners[first.count++] = whole.corners[i];
+        }
+        for (std::uint32_t i = middle; i < whole.count; ++i) {
+            second.corners[second.count++] = whole.corners[i];
+        }
+        second.corners[second.count++] = whole.corners[0];
+        return {first, second};
     }
 
     /// By their boxes.

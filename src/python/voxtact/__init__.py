@@ -15,6 +15,7 @@
     scene.area(knife, poses).lower                 # mm^2
     scene.overlap(knife, poses).lower              # mm^3
     scene.motion(knife, poses).toi_lower           # collision-free from each pose up to this parameter
+    scene.ask("area", knife, poses)["pairs"]       # any of questions(), by name; tables
     scene.opacity = [(100, 0), (200, 1)]           # the next query uses the edit
     scene.edit(ball=(x, y, z, r), value=-1000)     # and this one
 
@@ -28,8 +29,7 @@ posterior, +z superior), in millimetres. Matrices are row-major and multiply col
 Errors raise a `voxtact.Error`, which names the failure, the value and the fix; arguments of a wrong type, such as a
 text for a number, raise TypeError.
 """
-from ._answer import Area, Count, Counters, Distance, Overlap, Touch
-from ._core import __version__
+from ._answer import Answer, Area, Count, Counters, Distance, Overlap, Touch
 from ._common import LPS_FROM_RAS
 from ._device import Device, DeviceInfo, MethodReport, devices
 from ._errors import (
@@ -49,17 +49,18 @@ from ._errors import (
 from ._files import Points, read_camera, read_opacity, read_points, read_poses, write_png
 from ._geometry import overlapping_pairs
 from ._labels import Labels, read_label_names, read_labels
+from ._library import QuestionInfo, SettingInfo, __version__, questions, settings
 from ._mesh import Mesh, read_mesh
 from ._motion import Motion, pose_between
-from ._picture import Look, look, looks, read_colours
+from ._picture import Look, View, look, looks, read_colours, view_from
 from ._plan import Plan
 from ._scene import Scene
 from ._track import Tracked, Tracker
-from ._view import View, view_from
 from ._volume import Volume, read_volume
 
 __all__ = [
     "LPS_FROM_RAS",
+    "Answer",
     "Area",
     "Count",
     "Counters",
@@ -84,7 +85,9 @@ __all__ = [
     "Overlap",
     "Plan",
     "Points",
+    "QuestionInfo",
     "Scene",
+    "SettingInfo",
     "Touch",
     "Tracked",
     "Tracker",
@@ -98,6 +101,7 @@ __all__ = [
     "looks",
     "overlapping_pairs",
     "pose_between",
+    "questions",
     "read_camera",
     "read_colours",
     "read_label_names",
@@ -107,6 +111,7 @@ __all__ = [
     "read_points",
     "read_poses",
     "read_volume",
+    "settings",
     "view_from",
     "write_png",
 ]

@@ -10,6 +10,7 @@ import numpy.typing as npt
 from ._common import check_made, no_truth, restored
 from ._errors import NotReadyError
 from ._handles import METHODS, Labels
+from ._library import named
 from ._tables import UNDECIDED, YES, Tables
 
 if TYPE_CHECKING:
@@ -27,7 +28,7 @@ _CLOSEST = np.dtype([("triangle", np.int64), ("mesh", np.float64, 3), ("volume",
 class Counters(NamedTuple):
     """Counters of the passes of the projection "certified" on a device, for all poses: docs/engine.md.
 
-    `most_…`: peaks of a round.
+    `peak_…`: peaks of a round.
     """
 
     #: clusters of 64 triangles that were tested, once for each pair
@@ -63,21 +64,21 @@ class Counters(NamedTuple):
     #: maximum number of clusters in a round
     room: int
     #: peak of clusters_kept
-    most_clusters: int
+    peak_clusters: int
     #: peak of runs_kept
-    most_runs: int
+    peak_runs: int
     #: peak of large_parts, including those without room
-    most_parts: int
+    peak_parts: int
     #: peak of cells_listed, including those without room
-    most_cells: int
+    peak_cells: int
     #: peak of cells_open
-    most_open: int
+    peak_open: int
     #: peak of left
-    most_left: int
+    peak_left: int
     #: peak of bricks_seen and cells_seen together
-    most_looks: int
+    peak_tests: int
     #: peak of bricks_left and cells_left together
-    most_looks_left: int
+    peak_tests_left: int
 
 
 def _triangles_of(rows: npt.NDArray[Any]) -> npt.NDArray[np.int64]:
@@ -108,6 +109,43 @@ class _Answer:
 
     def __len__(self) -> int:
         return len(self._tables)
+
+
+class Answer(_Answer):
+    """The answer of `Scene.ask`: tables of rows, `answer["pairs"]`.
+
+    The main table, "pairs" or "segments", has a row for each pair or segment, in order; `item` and `pose` number the
+    meshes and poses as given, `pair` the rows of the main table. "totals" has one row.
+    """
+
+    __slots__ = ()
+
+    def __init__(self, made_of: Tables) -> None:
+        check_made(made_of, Tables, "Scene.ask()")
+        self._tables = made_of
+
+    @property
+    def question(self) -> str:
+        """The name of the question."""
+        return self._tables.question
+
+    @property
+    def tables(self) -> tuple[str, ...]:
+        """The names of the tables."""
+        return tuple(self._tables.names())
+
+    def __getitem__(self, table: str) -> npt.NDArray[np.void]:
+        named(table, "the table", self.tables)
+        return self._tables.rows(table)
+
+    def __repr__(self) -> str:
+        return f"<voxtact.Answer: {self.question}, {len(self)} rows; tables {', '.join(self.tables)}>"
+
+    def __bool__(self) -> NoReturn:
+        no_truth(self, f'["{self.tables[0]}"]')
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return restored, (Answer, {"_tables": self._tables})
 
 
 class _Decided(_Answer):
@@ -230,8 +268,7 @@ class Count(_Decided):
         region, 0 without a gradient; `depth`, mm along the normal to the end of the opaque region; `value` and
         `opacity` of the image there; `label`, 0 without a label map.
         """
-        tables = self._output("contacts")
-        return tables.rows("contacts")[:tables.max_contacts]
+        return self._output("contacts").rows("contacts")
 
     @property
     def contacts_found(self) -> int:

@@ -57,22 +57,24 @@ def told(progress: Progress, pairs: int) -> Iterator[Optional[Callable[[int, int
 
 
 def _poses(given: Any) -> npt.NDArray[np.float64]:
-    """Returns the poses of a mesh; refuses an empty list."""
+    """Returns the poses of a mesh. An empty list has no poses."""
+    if type(given) is np.ndarray:
+        return numbers(given, "poses")
     if hasattr(given, "__next__"):
         raise TypeError(f"poses is a {type(given).__name__}; a list of them or an array is needed, (N,4,4) or (4,4)")
     return np.zeros((0, 4, 4)) if isinstance(given, (list, tuple)) and len(given) == 0 else numbers(given, "poses")
 
 
-def asked(mesh: Any, poses: Any, volume: Volume) -> tuple[Any, Any]:
+def asked(mesh: Any, poses: Any, volume: Volume, level: int = 3) -> tuple[Any, Any]:
     """Returns a mesh with its poses, or a list of such pairs, in the library's form. Warns once for each volume if
-    volume and mesh have different, unstated spaces."""
+    volume and mesh have different, unstated spaces. level: stack level of the warning."""
     if isinstance(mesh, Mesh):
         if poses is None:
             raise TypeError("poses are missing: (N,4,4) or (4,4), world_from_object, row by row, mm, LPS")
         if volume._assumed and mesh._assumed:
             volume._assumed = False
             warnings.warn("the volume's affine is taken to lead to RAS, as nibabel's does, and the mesh's vertices to be in LPS: say "
-                          'space="ras" or space="lps" in read_volume() and read_mesh()', stacklevel=3)
+                          'space="ras" or space="lps" in read_volume() and read_mesh()', stacklevel=level)
         return mesh._core, _poses(poses)
     if poses is None and isinstance(mesh, Sequence) and not isinstance(mesh, (str, bytes)):
         pairs: list[tuple[Any, Any]] = []

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from typing import NamedTuple, NoReturn, Optional, Union
 
-from . import _core as core
+from . import _handles as core
 from ._common import encoded_text, not_pickled
 
 

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from ._errors import LimitExceededError
 from ._handles import METHODS, Device, Labels, Mesh, Volume
-from ._library import NULL, CData, check, copied, ffi, lib, made, made_with, pointer, refuse, struct, structs
+from ._library import NULL, CData, check, copied, ffi, lib, made, made_with, not_zero, pointer, refuse, struct, structs
 from ._request import PROJECTIONS, Opacity, Question, Request
 from ._turns import interruptibly
 from ._wish import PictureWish
@@ -94,7 +94,8 @@ class DeviceSide:
                 if question.overestimate:
                     refuse("the overestimate is for projection='dominant-axis', not for 'certified'")
                 kind = "certified"
-                desc = struct("certified_desc", max_depth=question.max_depth, resolution=question.resolution, outputs=question.outputs,
+                size = 0.0 if question.resolution is None else not_zero(question.resolution, "count", "resolution")
+                desc = struct("certified_desc", max_depth=question.max_depth or 0.0, resolution=size, outputs=question.outputs,
                               stop_at_first=question.stop_at_first, counters=question.counters)
             else:
                 if question.counters:
@@ -102,8 +103,8 @@ class DeviceSide:
                 kind = "raster"
                 desc = struct("raster_desc", method=method, projection=question.projection, boundary=question.boundary,
                               filter=lib.vxt_default_filter(method) if question.filter is None else question.filter,
-                              max_depth=question.max_depth, outputs=question.outputs,
-                              samples_per_voxel=question.samples_per_voxel, overestimate=question.overestimate)
+                              max_depth=question.max_depth or 0.0, outputs=question.outputs,
+                              samples_per_voxel=question.samples_per_voxel or 0, overestimate=question.overestimate)
             device = self._device
             found = device.make("blocking_detector", getattr(lib, f"vxt_blocking_detector_create_{kind}"), device.context, desc, device.queue,
                                 max(question.max_contacts, 1))

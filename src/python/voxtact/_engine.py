@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Scenes and trackers over the library: sends questions to the host or device part, in pieces."""
+"""Scenes and trackers over the library: sends questions to the host or device part, in pieces.
+
+Sizes and boxes are x, y, z; arrays of voxels are z, y, x.
+"""
 from __future__ import annotations
 
 import warnings
@@ -9,13 +12,14 @@ from typing import Any, Optional
 import numpy as np
 import numpy.typing as npt
 
+from ._common import encoded_text
 from ._device_side import DeviceSide
 from ._errors import InvalidArgumentError, NotReadyError
 from ._handles import Device, Labels, Mesh, Volume
 from ._host_side import FEW_TRIANGLES, HostSide, check_on_host
 from ._library import CData, check, ffi, forks, lib, made, matrix, named, not_zero, pointer, refuse, struct, vector
-from ._request import PROJECTIONS, Opacity, Question, Request, TouchQuestion
-from ._tables import SingleTables, Tables
+from ._request import PROJECTIONS, HostQuestion, Opacity, Question, Request, TouchQuestion
+from ._tables import Tables
 from ._turns import Tell, Turns, in_pieces, in_turn
 from ._wish import PictureWish
 
@@ -25,15 +29,13 @@ from ._wish import PictureWish
 _FIRST_TRIANGLES = 2**20
 _FIRST_ON_HOST = 64
 _FIRST_ON_DEVICE = 8
-#: Factor of the duration of a distance query.
-_DISTANCE_COST = 16
 _MAX_HOST_PAIRS = 2**20
 #: Stack level of warnings: the caller of a method of the package.
 _CALLER = 4
 _MAX_QUESTIONS = 64
 
-#: margin, distance and angle of the uncertainty, witness, resolution, max_steps, solid; 0: the default
-TouchOptions = tuple[float, float, float, bool, float, int, bool]
+#: settings of a touch
+TouchOptions = tuple[tuple[str, Any], ...]
 
 INTERPOLATIONS = ("screw", "slerp")
 
@@ -63,11 +65,6 @@ def _warn_of_opacity(volume: Volume, opacity: Opacity, threshold: float, who: st
         warnings.warn(f"{who}: none of the volume's values, {values}, is opaque: nothing touches", stacklevel=_CALLER)
 
 
-def _label_members(labels: Optional[list[int]]) -> dict[str, Any]:
-    """Returns the labels as C members. An empty list is a list, too: its pointer is not null."""
-    return {} if labels is None else {"labels": ffi.new("int32_t[]", labels or 1), "label_count": len(labels)}
-
-
 def _check_ways(request: Request, interpolation: int) -> None:
     """Refuses an item of fewer than two poses, and two poses without a rigid motion between them. Checks all before any
     work, because the work counts from the first pose of each piece."""
@@ -87,7 +84,7 @@ def _check_ways(request: Request, interpolation: int) -> None:
 
 
 def poses_between(first: npt.NDArray[np.float64], last: npt.NDArray[np.float64], parameters: npt.NDArray[np.float64],
-                  interpolation: bytes, centre: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+                  interpolation: str, centre: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
     """(T,4,4) for T parameters."""
     begin, end = matrix(first, "the first pose"), matrix(last, "the second pose")
     middle, how = vector(centre, "centre"), _interpolation(interpolation)
@@ -97,8 +94,9 @@ def poses_between(first: npt.NDArray[np.float64], last: npt.NDArray[np.float64],
     return poses.transpose(0, 2, 1).copy()
 
 
-def _interpolation(name: bytes) -> int:
-    return named(name.decode("utf-8", "surrogateescape"), "interpolation", INTERPOLATIONS)
+def _interpolation(name: str) -> int:
+    encoded_text(name, "interpolation")
+    return named(name, "interpolation", INTERPOLATIONS)
 
 
 class Scene:
@@ -244,12 +242,10 @@ class Scene:
         return question
 
     def _touch_question(self, options: TouchOptions) -> TouchQuestion:
-        """Returns the cached question of these options."""
-        question = self._touches.get(options)
-        if question is None:
-            question = TouchQuestion(*options)
-            if len(self._touches) < _MAX_QUESTIONS:
-                self._touches[options] = question
+        """Creates and caches the question of these options."""
+        question = TouchQuestion(dict(options))
+        if len(self._touches) < _MAX_QUESTIONS:
+            self._touches[options] = question
         return question
 
     def _answered(self, request: Request, question: Question, progress: Tell) -> Tables:
@@ -295,24 +291,36 @@ class Scene:
         host = self._host
         if host is None or not self._open:
             host = self._host_side()
-        return SingleTables(*host.touch(question.touch, mesh, place, self.threshold))
+        return host.touch(question, mesh, place, self.threshold)
 
     @in_turn
-    def _touch(self, request: Request, question: TouchQuestion, progress: Tell) -> Tables:
+    def _ask(self, question: HostQuestion, request: Request, progress: Tell) -> Tables:
+        """Answers a question of the host engine."""
         side = self._host_side()
-        tables = Tables("touch", request.lengths())
+        of_segments = question.name == "motion"
+        tables = Tables(question.name, request.lengths(of_segments), max_contacts=question.max_contacts)
+        total, part = (request.segments, request.part_of_segments) if of_segments else (request.pairs, request.part)
 
         def work(first: int, count: int) -> None:
-            tables.add(first, side.touches(question, request, first, count, self.threshold))
+            few = question.cost == 1 and count * request.max_triangles <= FEW_TRIANGLES
+            tables.add(first, side.ask(question, list(part(first, count)), self.threshold, few))
 
-        if request.pairs == 0:
+        if total == 0:
             work(0, 0)
-        first = self._first_on_host(request, 1 if question.is_plain else _DISTANCE_COST)
-        self._in_pieces(request, request.pairs, first, _MAX_HOST_PAIRS, progress, work)
+        self._in_pieces(request, total, self._first_on_host(request, question.cost), _MAX_HOST_PAIRS, progress, work)
         return tables
 
+    def ask(self, name: str, meshes: Any, poses: Any, settings: dict[str, Any], progress: Tell) -> Tables:
+        """Answers a question by its name. settings: see HostQuestion."""
+        request = Request(meshes, poses)
+        if name == "motion":
+            how = _interpolation(settings.get("interpolation", INTERPOLATIONS[0]))
+            request.check()
+            _check_ways(request, how)
+        return self._ask(HostQuestion(name, settings), request, progress)
+
     def touch(self, meshes: Any, poses: Any, options: TouchOptions, progress: Tell) -> Tables:
-        question = self._touch_question(options)
+        question = self._touches.get(options) or self._touch_question(options)
         if self._device is not None and question.is_plain and not _is_curved(meshes):
             return self.count(meshes, poses, question.count_options, progress)
         if (question.is_plain and progress is None and type(meshes) is Mesh and meshes.triangles <= FEW_TRIANGLES
@@ -322,7 +330,7 @@ class Scene:
             except InvalidArgumentError:
                 Request(meshes, poses).check()
                 raise
-        return self._touch(Request(meshes, poses), question, progress)
+        return self._ask(question, Request(meshes, poses), progress)
 
     @in_turn
     def again(self, asked: Any, output: str) -> Optional[Tables]:
@@ -336,69 +344,14 @@ class Scene:
     @in_turn
     def engine_seconds(self, meshes: Any, poses: Any, times: int) -> list[float]:
         """Returns the duration of one host call per touch, for benchmarks."""
-        request, question, side = Request(meshes, poses), TouchQuestion(), self._host_side()
+        request, question, side = Request(meshes, poses), TouchQuestion({}), self._host_side()
         seconds: list[float] = []
         for _ in range(times):
             tables = Tables("touch", ())
-            tables.add(0, side.touches(question, request, 0, request.pairs, self.threshold))
+            tables.add(0, side.ask(question, list(request.part(0, request.pairs)), self.threshold,
+                                   request.pairs * request.max_triangles <= FEW_TRIANGLES))
             seconds.append(tables.milliseconds / 1000)
         return seconds
-
-    @in_turn
-    def _measured(self, kind: str, question: CData, request: Request, cost: int, progress: Tell) -> Tables:
-        """Answers a question of the host engine."""
-        side = self._host_side()
-        ask = getattr(lib, f"vxt_ask_{kind}")
-        is_motion = kind == "motion"
-        tables = Tables(kind, request.lengths(is_motion))
-        total, part = (request.segments, request.part_of_segments) if is_motion else (request.pairs, request.part)
-
-        def work(first: int, count: int) -> None:
-            tables.add(first, side.ask(ask, question, list(part(first, count)), self.threshold))
-
-        if total == 0:
-            work(0, 0)
-        self._in_pieces(request, total, self._first_on_host(request, cost), _MAX_HOST_PAIRS, progress, work)
-        return tables
-
-    def distance(self, meshes: Any, poses: Any, tolerance: float, max_distance: float, max_steps: int, labels: Optional[list[int]],
-                  any_opacity: bool, solid: bool, progress: Tell) -> Tables:
-        request = Request(meshes, poses)
-        not_zero(tolerance, "distance", "tolerance")
-        not_zero(max_distance, "distance", "max")
-        wanted = _label_members(labels)
-        question = struct("distance", tolerance=tolerance, max=max_distance, max_steps=max_steps, any_opacity=any_opacity, solid=solid,
-                          **wanted)
-        cost = _DISTANCE_COST * (1 if labels is None else 1 + len(labels))
-        return self._measured("distance", question, request, cost, progress)
-
-    def area(self, meshes: Any, poses: Any, tolerance: float, max_steps: int, labels: Optional[list[int]], by_triangle: bool,
-             progress: Tell) -> Tables:
-        request = Request(meshes, poses)
-        not_zero(tolerance, "area", "tolerance")
-        wanted = _label_members(labels)
-        question = struct("area", tolerance=tolerance, max_steps=max_steps, triangles=by_triangle, **wanted)
-        return self._measured("area", question, request, _DISTANCE_COST, progress)
-
-    def overlap(self, meshes: Any, poses: Any, tolerance: Optional[float], max_steps: int, bands: Optional[list[float]],
-                labels: Optional[list[int]], progress: Tell) -> Tables:
-        request = Request(meshes, poses)
-        wanted = _label_members(labels)
-        if bands is not None:
-            wanted.update(band_limits=ffi.new("double[]", bands), band_limit_count=len(bands))
-        if tolerance is not None:
-            wanted["tolerance"] = not_zero(tolerance, "overlap", "tolerance")
-        question = struct("overlap", max_steps=max_steps, **wanted)
-        cost = _DISTANCE_COST * (1 + len(labels or ()) + len(bands or ()))
-        return self._measured("overlap", question, request, cost, progress)
-
-    def motion(self, meshes: Any, poses: Any, interpolation: bytes, resolution: float, max_steps: int, progress: Tell) -> Tables:
-        request, how = Request(meshes, poses), _interpolation(interpolation)
-        request.check()
-        _check_ways(request, how)
-        not_zero(resolution, "motion", "resolution")
-        question = struct("motion", interpolation=how, resolution=resolution, max_steps=max_steps)
-        return self._measured("motion", question, request, _DISTANCE_COST, progress)
 
     # Others
 

@@ -10,15 +10,15 @@ import numpy.typing as npt
 from ._errors import UnsupportedError
 from ._handles import METHODS, Labels, Mesh, Volume
 from ._library import NULL, CData, check, failure, ffi, forks, lib, made, made_with, pointer, struct
-from ._request import Opacity, Question, Request, TouchQuestion
+from ._request import HostQuestion, Opacity, Question, Request
+from ._tables import SingleTables
 from ._turns import interruptibly
 
 #: Below this number of triangle tests, starting a thread takes longer than a touch query. Counts always start one: one
 #: triangle may have all the fragments.
 FEW_TRIANGLES = 2**14
 
-_ask_touch, _find, _from_buffer, _cast = lib.vxt_ask_touch, lib.vxt_answer_find, ffi.from_buffer, ffi.cast
-_DOUBLES, _DOUBLE, _UINT = ffi.typeof("double[]"), ffi.typeof("double*"), ffi.typeof("uint32_t*")
+_ask, _find, _from_buffer, _DOUBLES = lib.vxt_ask, lib.vxt_answer_find, ffi.from_buffer, ffi.typeof("double[]")
 
 
 def check_on_host(question: Question) -> None:
@@ -51,6 +51,8 @@ class HostSide:
         self._single_pairs = struct("pairs", items=self._single, item_count=1, cancel=cancel)
         self._single_answer = made("answer", lib.vxt_answer_create)
         self._touch, self._took = struct("column"), struct("column")
+        self._touch_at = ffi.cast("uint32_t**", ffi.addressof(self._touch, "data"))
+        self._took_at = ffi.cast("double**", ffi.addressof(self._took, "data"))
         self.set_opacity(opacity)
 
     def set_opacity(self, opacity: Opacity) -> None:
@@ -105,32 +107,26 @@ class HostSide:
             pairs.items = self._many
         pairs.item_count = len(parts)
 
-    def ask(self, ask: Any, question: CData, parts: list[tuple[Mesh, CData, int]], threshold: float, view: CData = NULL,
-            few: bool = False) -> CData:
-        """Returns the answer of vxt_ask_...() for parts of a request."""
+    def ask(self, question: HostQuestion, parts: list[tuple[Mesh, CData, int]], threshold: float, few: bool = False) -> CData:
+        """Returns the answer for parts of a request."""
         self._fill(parts)
         pairs = self._pairs
         pairs.opacity_threshold = threshold or -0.0
-        pairs.view = view
+        pairs.view = question.view_on(self._given.grid)
         answer = made("answer", lib.vxt_answer_create)
         engine = self.engine
         if few:
-            check(ask(engine, question, pairs, answer))
+            check(_ask(engine, *question.arguments, pairs, answer))
         else:
-            interruptibly(lambda: check(ask(engine, question, pairs, answer)), self._cancel)
+            interruptibly(lambda: check(_ask(engine, *question.arguments, pairs, answer)), self._cancel)
         return answer
 
     def count(self, question: Question, request: Request, first: int, count: int, threshold: float) -> CData:
         few = question.stop_at_first and count * request.max_triangles <= FEW_TRIANGLES
-        return self.ask(lib.vxt_ask_count, question.count, list(request.part(first, count)), threshold,
-                        question.view_on(self._given.grid), few)
+        return self.ask(question, list(request.part(first, count)), threshold, few)
 
-    def touches(self, question: TouchQuestion, request: Request, first: int, count: int, threshold: float) -> CData:
-        few = question.is_plain and count * request.max_triangles <= FEW_TRIANGLES
-        return self.ask(lib.vxt_ask_touch, question.touch, list(request.part(first, count)), threshold, NULL, few)
-
-    def touch(self, question: CData, mesh: Mesh, place: bytes, threshold: float) -> tuple[int, float]:
-        """Returns the verdict for one pose, and its duration, ms."""
+    def touch(self, question: HostQuestion, mesh: Mesh, place: bytes, threshold: float) -> SingleTables:
+        """Answers a touch query about one pose, column by column."""
         single = self._single
         if self._single_mesh is not mesh:
             single.mesh = mesh.on_host
@@ -138,14 +134,13 @@ class HostSide:
         single.world_from_object = _from_buffer(_DOUBLES, place)
         self._single_pairs.opacity_threshold = threshold or -0.0
         answer = self._single_answer
-        engine = self._engine if self._born == forks() else self.engine
-        result = _ask_touch(engine, question, self._single_pairs, answer)
+        name, settings, count = question.arguments
+        result = _ask(self._engine if self._born == forks() else self.engine, name, settings, count, self._single_pairs, answer)
         if result:
             raise failure(result)
-        touch, took = self._touch, self._took
-        _find(answer, b"pairs", b"touch", touch)
-        _find(answer, b"totals", b"wall_milliseconds", took)
-        return _cast(_UINT, touch.data)[0], _cast(_DOUBLE, took.data)[0]
+        _find(answer, b"pairs", b"touch", self._touch)
+        _find(answer, b"totals", b"wall_milliseconds", self._took)
+        return SingleTables(self._touch_at[0][0], self._took_at[0][0])
 
     def plan(self, wish: dict[str, Any], avoided: Optional[Volume], opaque: Optional[Opacity], threshold: float) -> CData:
         """Answers a plan. wish: members of vxt_plan by their names in C, and `avoid`."""

@@ -10,7 +10,7 @@ from typing import Any, NoReturn, Optional, Union
 import numpy as np
 import numpy.typing as npt
 
-from . import _core as core
+from . import _handles as core
 from ._common import check_made, encoded, not_pickled, numbers
 from ._errors import InvalidArgumentError
 from ._library import ffi, lib, made, text_of

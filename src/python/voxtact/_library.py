@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import threading
 from collections.abc import Callable
-from typing import Any, NoReturn, Optional
+from typing import Any, Literal, NamedTuple, NoReturn, Union, get_args
 
 import numpy as np
 import numpy.typing as npt
@@ -239,34 +239,79 @@ def named(word: Any, what: str, names: tuple[str, ...]) -> int:
     return names.index(word)
 
 
-# Facts
+# Questions and their settings
+
+Kind = Literal["number", "whole", "flag", "choice", "numbers", "labels"]  # in the order of vxt_fact_kind
+_NUMBERS: dict[str, Callable[[float], Union[float, int, bool]]] = {"number": float, "whole": int, "flag": bool}
 
 
-class Fact:
-    """Default, range and unit of a number."""
+class SettingInfo(NamedTuple):
+    """A setting of a question: `settings` lists them."""
 
-    __slots__ = ("question", "name", "unit", "text", "range", "standard")
+    #: keyword of `Scene.ask`
+    name: str
+    kind: Kind
+    #: None: the setting is optional
+    default: Union[None, bool, int, float, str]
+    #: "mm", "mm^2", "mm^3", "degrees", "voxels"; "" for none
+    unit: str
+    #: "from 1e-06 mm on"; of a choice its names, comma-separated
+    range: str
+    text: str
+    #: limits of numbers
+    min: float
+    max: float
 
-    def __init__(self, index: int) -> None:
-        fact = struct("fact")
+
+class QuestionInfo(NamedTuple):
+    """A question about meshes at poses: `questions` lists them."""
+
+    #: argument of `Scene.ask`
+    name: str
+    text: str
+
+
+def _facts() -> dict[tuple[str, str], SettingInfo]:
+    found: dict[tuple[str, str], SettingInfo] = {}
+    fact = struct("fact")
+    for index in range(lib.vxt_fact_count()):
         check(lib.vxt_fact_get(index, fact))
-        self.question, self.name, self.unit, self.text, self.range = (
-            text_of(chars) for chars in (fact.question, fact.name, fact.unit, fact.text, fact.range))
-        self.standard: Optional[float] = float(fact.standard) if fact.has_standard else None
+        kind: Kind = get_args(Kind)[fact.kind]
+        question, name, unit, span, text, choices = (text_of(chars) for chars in (fact.question, fact.name, fact.unit, fact.range,
+                                                                                  fact.text, fact.choices))
+        default = choices.split(",")[0] if choices else _NUMBERS[kind](fact.standard) if fact.has_standard else None
+        found[question, name] = SettingInfo(name, kind, default, unit, span, text, fact.min, fact.max)
+    return found
 
 
-FACTS: dict[tuple[str, str], Fact] = {(fact.question, fact.name): fact for fact in map(Fact, range(lib.vxt_fact_count()))}
+#: By question and name.
+FACTS = _facts()
+__version__ = text_of(lib.vxt_version())
 
 
-def standard(question: str, name: str) -> float:
-    """Returns the default of a number."""
-    number = FACTS[question, name].standard
-    assert number is not None
-    return number
+def questions() -> list[QuestionInfo]:
+    """Returns the questions that `Scene.ask` answers, each with one line of text."""
+    found: list[QuestionInfo] = []
+    question = struct("question")
+    for index in range(lib.vxt_question_count()):
+        check(lib.vxt_question_get(index, question))
+        found.append(QuestionInfo(text_of(question.name), text_of(question.text)))
+    return found
+
+
+def settings(question: str) -> list[SettingInfo]:
+    """Returns the settings of a question: names, kinds, defaults, units, ranges and texts."""
+    named(question, "question", tuple(one.name for one in questions()))
+    return [fact for (of, _), fact in FACTS.items() if of == question]
+
+
+def standard(question: str, name: str) -> Any:
+    """Returns the default of a setting."""
+    return FACTS[question, name].default
 
 
 def not_zero(number: float, question: str, name: str) -> float:
-    """Refuses 0, which selects the default in the library, with the library's text."""
+    """Refuses 0, which selects the default in some structs of the library, with the library's text."""
     if number == 0:
         fact = FACTS[question, name]
         refuse(f"the {name.replace('_', ' ')} 0{' ' * bool(fact.unit)}{fact.unit} is not a number {fact.range}")

@@ -8,7 +8,7 @@ from typing import Any, Optional, Union
 import numpy as np
 import numpy.typing as npt
 
-from . import _core as core
+from . import _handles as core
 from ._common import BUILTIN, Space, array_of, checked_space, encoded, encoded_text, number, numbers
 from ._errors import InvalidArgumentError
 from ._request import check_affine, columns_of

@@ -7,7 +7,7 @@ from typing import Any, Literal, NoReturn, Optional
 import numpy as np
 import numpy.typing as npt
 
-from ._common import check_made, encoded_text, no_truth, numbers, restored
+from ._common import check_made, no_truth, numbers, restored
 from ._engine import poses_between
 from ._errors import InvalidArgumentError
 from ._handles import Labels
@@ -41,8 +41,7 @@ def pose_between(first: npt.ArrayLike, second: npt.ArrayLike, at: npt.ArrayLike,
     if mesh is not None and not isinstance(mesh, Mesh):
         raise TypeError(f"mesh is a {type(mesh).__name__}; voxtact.read_mesh() makes a voxtact.Mesh of it")
     centre = np.zeros(3) if mesh is None else np.mean(mesh.bounds, axis=0)
-    poses = poses_between(numbers(first, "first"), numbers(second, "second"),
-                               parameters.reshape(-1), encoded_text(interpolation, "interpolation"), centre)
+    poses = poses_between(numbers(first, "first"), numbers(second, "second"), parameters.reshape(-1), interpolation, centre)
     if parameters.ndim:
         return poses
     only: npt.NDArray[np.float64] = poses[0]

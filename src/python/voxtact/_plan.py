@@ -9,12 +9,11 @@ from typing import Any, NoReturn, Optional, Union
 import numpy as np
 import numpy.typing as npt
 
-from . import _core as core
 from ._arguments import Opacity, pair
 from ._common import check_made, listed, no_truth, number, numbers, restored, whole_number
 from ._errors import InvalidArgumentError, NotReadyError
 from ._labels import Labels
-from ._library import not_zero, vector
+from ._library import lib, not_zero, vector
 from ._mesh import Mesh
 from ._tables import Tables
 
@@ -33,9 +32,9 @@ def plan_options(labels: Optional[Labels], *, avoid: Sequence[Union[int, str]], 
     """Returns the members of vxt_plan, and `avoid`. `labels`: of the scene."""
     avoided = listed(avoid, "avoid")
     if not avoided and avoid_opacity is None:
-        raise InvalidArgumentError("avoid, avoid_opacity: one of them must say what is not to be touched")
+        raise InvalidArgumentError("avoid, avoid_opacity: give at least one of them, which says what to avoid")
     if avoid_volume is not None and avoid_opacity is None:
-        raise InvalidArgumentError("avoid_volume needs avoid_opacity=: what of it is not to be touched")
+        raise InvalidArgumentError("avoid_volume needs avoid_opacity=, which says what to avoid in it")
     if labels is None and (avoided or entry_label is not None):
         raise InvalidArgumentError("plans that are about labels need a scene with labels=")
     if entry_label is not None and entry_radius is not None:
@@ -44,7 +43,7 @@ def plan_options(labels: Optional[Labels], *, avoid: Sequence[Union[int, str]], 
         raise InvalidArgumentError("tip and axis are of a mesh: give mesh=, too")
     if mesh is not None and (needle is not None or tip is None or axis is None):
         raise InvalidArgumentError("a mesh comes with tip= and axis=, and without needle=")
-    wish: dict[str, Any] = {"entries": whole_number(entries, "entries", 1, core.MAX_ENTRIES),
+    wish: dict[str, Any] = {"entries": whole_number(entries, "entries", 1, lib.VXT_MAX_ENTRIES),
                             "margin": number(margin, "margin"),
                             "tolerance": not_zero(number(tolerance, "tolerance"), "plan", "tolerance"),
                             "max": not_zero(number(max, "max"), "plan", "max"),
@@ -71,7 +70,7 @@ def plan_options(labels: Optional[Labels], *, avoid: Sequence[Union[int, str]], 
             raise TypeError(f"mesh is a {type(mesh).__name__}; voxtact.read_mesh() makes a voxtact.Mesh of it")
         held = vector(numbers(axis, "axis"), "axis")
         if not any(held):
-            raise InvalidArgumentError("axis: 0,0,0 points nowhere; it goes from the tip to where the instrument is held")
+            raise InvalidArgumentError("axis is 0,0,0; it must point from the tip to the handle of the instrument")
         wish.update(mesh=mesh._core.on_host, mesh_tip=vector(numbers(tip, "tip"), "tip"), mesh_axis=held)
     return wish
 

@@ -9,17 +9,18 @@ from typing import Any, Optional
 import numpy as np
 import numpy.typing as npt
 
+from ._common import encoded_text
 from ._handles import METHODS, Mesh, Volume
-from ._library import NULL, CData, check, doubles, ffi, lib, matrix, named, not_zero, pointer, refuse, shape_text, struct, text_of
+from ._library import FACTS, NULL, CData, check, doubles, ffi, lib, matrix, named, pointer, refuse, shape_text, struct, text_of
 
 PROJECTIONS: tuple[str, ...] = tuple(text_of(lib.vxt_projection_name(number)) for number in range(lib.VXT_PROJECTION_CERTIFIED + 1))
 _FILTERS = tuple(text_of(lib.vxt_filter_name(number)) for number in range(lib.VXT_FILTER_EXACT + 1))
 _BOUNDARIES = tuple(text_of(lib.vxt_boundary_name(number)) for number in range(lib.VXT_BOUNDARY_CLAMP + 1))
-_CERTIFIED: int = lib.VXT_PROJECTION_CERTIFIED
 _OUTPUTS = {"triangles": lib.VXT_OUTPUT_TRIANGLES, "contacts": lib.VXT_OUTPUT_CONTACTS, "bounds": lib.VXT_OUTPUT_BOUNDS,
             "labels": lib.VXT_OUTPUT_LABELS}
 _LAST_ROW = np.array([0.0, 0.0, 0.0, 1.0])
 _PIXELS = 512
+_DISTANCE_COST = 16
 
 
 def columns_of(poses: npt.NDArray[np.float64], what: str = "poses") -> npt.NDArray[np.float64]:
@@ -102,99 +103,106 @@ class Request:
         return [max(len(item.columns) - of_segments, 0) for item in self.of]
 
 
-class TouchQuestion:
-    """A touch question: `touch` is its vxt_touch."""
+class HostQuestion:
+    """A question of the host engine by its name.
 
-    __slots__ = ("touch", "is_plain", "count_options")
+    `arguments`: name, settings and their number, for vxt_ask(); `cost`: factor of the duration of a plain touch
+    """
 
-    def __init__(self, margin: float = 0, distance: float = 0, angle: float = 0, witness: bool = False, resolution: float = 0,
-                 max_steps: int = 0, solid: bool = False) -> None:
-        self.touch = struct("touch", margin=margin, uncertainty_distance=distance, uncertainty_angle=angle, witness=witness,
-                            solid=solid, resolution=resolution, max_steps=max_steps)
+    __slots__ = ("name", "arguments", "cost", "max_contacts", "uses_view", "view", "_kept")
+
+    def __init__(self, name: str, settings: dict[str, Any]) -> None:
+        """settings: numbers, truth values, texts and lists of numbers; None is not given."""
+        self.name = name
+        self.uses_view = name == "count"
+        self.view: CData = None
+        self._kept: list[CData] = [ffi.new("char[]", encoded_text(name, "question"))]
+        given = [self._setting(setting, value) for setting, value in settings.items() if value is not None]
+        self.arguments = (self._kept[0], ffi.new("vxt_setting[]", given), len(given))
+        self.cost = _DISTANCE_COST * (1 + sum(len(value) for value in settings.values() if isinstance(value, list)))
+        self.max_contacts: Optional[int] = settings.get("max_contacts")
+
+    def _setting(self, name: str, value: Any) -> dict[str, Any]:
+        kind, made = "number", value
+        if isinstance(value, str):
+            kind, made = "text", ffi.new("char[]", encoded_text(value, name))
+        elif isinstance(value, list):
+            fact = FACTS.get((self.name, name))
+            kind, element = ("labels", "int32_t") if fact is not None and fact.kind == "labels" else ("numbers", "double")
+            made = ffi.new(f"{element}[]", value or 1)  # an empty list has a pointer, too
+        self._kept += [ffi.new("char[]", encoded_text(name, "setting")), made]
+        return {"name": self._kept[-2], kind: made, "count": len(value) if isinstance(value, list) else 0}
+
+    def view_on(self, grid: CData) -> CData:
+        """Returns the camera of projections that use one; the default is from above."""
+        if self.uses_view and self.view is None:
+            view = ffi.new("vxt_view*")
+            check(lib.vxt_framing_view(grid, _PIXELS, _PIXELS, view))
+            self.view = view
+        return self.view if self.uses_view else NULL
+
+
+class TouchQuestion(HostQuestion):
+    """A touch question."""
+
+    __slots__ = ("is_plain", "count_options")
+
+    def __init__(self, settings: dict[str, Any]) -> None:
+        super().__init__("touch", settings)
         #: a device has it, too, by the options of a count
-        self.is_plain = margin == distance == angle == max_steps == 0 and not witness and not solid
-        self.count_options: dict[str, Any] = {"stop_at_first": True, **({"resolution": resolution} if resolution else {})}
+        self.is_plain = not settings.keys() - {"resolution"}
+        self.cost = 1 if self.is_plain else _DISTANCE_COST
+        self.count_options: dict[str, Any] = {"stop_at_first": True, **settings}
 
 
-class Question:
-    """A count question: `count` is the vxt_count of the host engine."""
+class Question(HostQuestion):
+    """A count question of the host engine or of a device. Options that are not given are None."""
 
-    __slots__ = ("count", "projection", "method", "filter", "boundary", "outputs", "max_depth", "samples_per_voxel",
-                 "resolution", "stop_at_first", "overestimate", "counters", "max_contacts", "view", "key")
+    __slots__ = ("options", "projection", "is_certified", "method", "filter", "boundary", "outputs", "max_depth", "samples_per_voxel",
+                 "resolution", "stop_at_first", "overestimate", "counters", "key")
+    max_contacts: int
 
     def __init__(self, options: dict[str, Any]) -> None:
         get = options.get
+        self.options = options
         self.projection = named(get("projection", "certified"), "projection", PROJECTIONS)
         self.method = named(options["method"], "method", METHODS) if "method" in options else None
         self.filter = named(options["filter"], "filter", _FILTERS) if "filter" in options else None
         self.boundary = named(get("boundary", "auto"), "boundary", _BOUNDARIES)
         self.outputs = sum(bit for name, bit in _OUTPUTS.items() if get(name))
-        self.max_depth = get("max_depth", 0.0)
-        self.samples_per_voxel = get("samples_per_voxel", 0)
-        self.resolution = get("resolution", 0.0)
-        self.stop_at_first = bool(get("stop_at_first"))
-        self.overestimate = bool(get("overestimate"))
+        self.max_depth, self.samples_per_voxel, self.resolution = get("max_depth"), get("samples_per_voxel"), get("resolution")
+        self.stop_at_first, self.overestimate = bool(get("stop_at_first")), bool(get("overestimate"))
         self.counters = bool(get("counters"))
-        self.max_contacts = get("max_contacts", 2**20)
-        self.view: CData = None
-        if "max_depth" in options and not (math.isfinite(self.max_depth) and self.max_depth > 0):
-            refuse(f"max_depth is {self.max_depth}; it must be positive and finite")  # only for contacts
+        self.is_certified = self.projection == lib.VXT_PROJECTION_CERTIFIED
+        room = get("max_contacts", 2**20)
+        of_host = {name: value for name, value in options.items() if ("count", name) in FACTS}
+        super().__init__("count", {**of_host, "projection": PROJECTIONS[self.projection], "max_contacts": max(room, 1)})
+        self.max_contacts = room
+        self.uses_view = bool(lib.vxt_projection_uses_view(self.projection))
+        self._check()
         if "view" in options:
             given, width, height = options["view"]
             self.view = ffi.new("vxt_view*", {"clip_from_world": matrix(given, "clip_from_world"), "width": width, "height": height})
-        self._refuse_what_is_not_of_the_projection(options)
-        self.count = struct("count", projection=self.projection, boundary=self.boundary, outputs=self.outputs,
-                            stop_at_first=self.stop_at_first, max_depth=self.max_depth, resolution=self.resolution,
-                            samples_per_voxel=self.samples_per_voxel, max_contacts=max(self.max_contacts, 1))
-        self.key = (self.projection, self.method, self.filter, self.boundary, self.outputs, self.max_depth, self.samples_per_voxel,
-                    self.resolution, self.stop_at_first, self.overestimate, self.counters, self.max_contacts)
+        self.key = tuple((name, value) for name, value in options.items() if name != "view")
 
-    def _refuse_what_is_not_of_the_projection(self, options: dict[str, Any]) -> None:
+    def _check(self) -> None:
+        """Refuses what is not of the projection."""
         name = PROJECTIONS[self.projection]
-        if "samples_per_voxel" in options and name != "dominant-axis":
+        if self.max_depth is not None and not (math.isfinite(self.max_depth) and self.max_depth > 0):
+            refuse(f"max_depth is {self.max_depth}; it must be positive and finite")  # only for contacts
+        if self.samples_per_voxel is not None and name != "dominant-axis":
             refuse(f"samples_per_voxel is for projection='dominant-axis', not for '{name}'")
-        if "view" in options and not self.uses_view:
+        if "view" in self.options and not self.uses_view:
             refuse(f"view is for projection='view' and 'two-view', not for '{name}'")
-        if "resolution" in options:
-            if not self.is_certified:
-                refuse(f"resolution is for projection='certified', not for '{name}'")
-            not_zero(self.resolution, "count", "resolution")
+        if self.resolution is not None and not self.is_certified:
+            refuse(f"resolution is for projection='certified', not for '{name}'")
         if self.boundary == lib.VXT_BOUNDARY_CLAMP and self.is_certified:
             refuse("boundary='clamp' is not for projection='certified', which always tests the range")
 
-    @property
-    def is_certified(self) -> bool:
-        return bool(self.projection == _CERTIFIED)
-
-    @property
-    def uses_view(self) -> bool:
-        return bool(lib.vxt_projection_uses_view(self.projection))
-
     def again(self, output: str) -> Question:
         """Returns the same question with one output."""
-        options: dict[str, Any] = {output: True, "projection": PROJECTIONS[self.projection],
-                                   "boundary": _BOUNDARIES[self.boundary]}
-        if self.method is not None:
-            options["method"] = METHODS[self.method]
-        if self.filter is not None:
-            options["filter"] = _FILTERS[self.filter]
-        for name in ("max_depth", "samples_per_voxel", "resolution"):
-            if getattr(self, name):
-                options[name] = getattr(self, name)
-        options.update(overestimate=self.overestimate, counters=self.counters, max_contacts=self.max_contacts)
-        question = Question(options)
-        question.view = self.view
-        return question
-
-    def view_on(self, grid: CData) -> CData:
-        """Returns the camera of projections that use one; the default is from above."""
-        if not self.uses_view:
-            return NULL
-        if self.view is None:
-            view = ffi.new("vxt_view*")
-            check(lib.vxt_framing_view(grid, _PIXELS, _PIXELS, view))
-            self.view = view
-        return self.view
+        kept = {name: value for name, value in self.options.items() if name not in _OUTPUTS and name != "stop_at_first"}
+        return Question({**kept, output: True})
 
 
 class Opacity:

@@ -10,7 +10,7 @@ from weakref import WeakSet
 import numpy as np
 import numpy.typing as npt
 
-from . import _core as core
+from . import _engine as core
 from ._answer import Count, Touch
 from ._arguments import (
     Method,
@@ -30,12 +30,11 @@ from ._device import Device, best_device, opened
 from ._enclosed import enclosed
 from ._errors import Error, InvalidArgumentError
 from ._labels import Labels, read_labels
-from ._library import not_zero
+from ._library import lib, standard
 from ._measuring import RESOLUTION, Measuring
 from ._mesh import Mesh
-from ._picture import Clip, Colour, Light, Show, picture_options, png
+from ._picture import Clip, Colour, Light, Show, View, picture_options, png
 from ._plan import Plan, plan_options
-from ._view import View
 from ._volume import Volume, read_volume
 
 
@@ -54,7 +53,8 @@ _MAX_CONTACTS = 2**20
 _SAMPLES_PER_VOXEL = 1
 _MAX_DEPTH = 10.0
 _NO_MARGIN = 0.0
-_PLAIN_TOUCH = (0.0, 0.0, 0.0, False, 0.0, 0, False)
+_TOUCH_STEPS: int = standard("touch", "max_steps")
+_PLAIN_TOUCH: tuple[tuple[str, Any], ...] = ()
 
 
 def _uncertainty_of(given: Any) -> tuple[float, float]:
@@ -93,25 +93,26 @@ class Scene(Measuring):
     second.
     """
 
-    __slots__ = ("_core", "_volume", "_labels", "_device", "_domain", "_table_size", "_closed", "_warned", "_examined",
+    __slots__ = ("_core", "_volume", "_labels", "_device", "_domain", "_table_size", "_closed", "_warned", "_examined", "_last",
                  "__weakref__")
 
-    def __init__(self, volume: Any, opacity: Opacity = None, threshold: float = core.DEFAULT_THRESHOLD, *,
+    def __init__(self, volume: Any, opacity: Opacity = None, threshold: float = standard("scene", "opacity_threshold"), *,
                  domain: Optional[tuple[float, float]] = None, table_size: Optional[int] = None,
                  labels: Any = None, device: Union[None, bool, int, str, Device] = None, threads: int = 0) -> None:
         self._volume = read_volume(volume)
         self._labels: Optional[Labels] = None if labels is None else read_labels(labels)
         self._device = opened(device)
         self._domain = None if domain is None else pair(domain, "domain")
-        fitting = core.DEFAULT_TABLE_SIZE if self._volume.dtype == "uint8" else 4096
-        self._table_size = fitting if table_size is None else whole_number(table_size, "table_size", 2, core.MAX_TABLE_SIZE)
+        fitting = lib.VXT_DEFAULT_TABLE_SIZE if self._volume.dtype == "uint8" else 4096
+        self._table_size = fitting if table_size is None else whole_number(table_size, "table_size", 2, lib.VXT_MAX_TABLE_SIZE)
         self._closed = False
         self._warned = False
-        self._examined: WeakSet[core.Mesh] = WeakSet()  # meshes whose enclosed regions were looked for
+        self._examined: WeakSet[Any] = WeakSet()  # meshes whose enclosed regions were looked for
+        self._last: Optional[Mesh] = None  # one of them
         self._core = core.Scene(self._volume._core, points(opacity), self._domain, self._table_size, number(threshold, "threshold"),
                                  None if self._labels is None else self._labels._core,
                                  None if self._device is None else self._device._core,
-                                 whole_number(threads, "threads", 0, core.MAX_THREADS))
+                                 whole_number(threads, "threads", 0, lib.VXT_MAX_THREADS))
 
     # Properties
 
@@ -200,7 +201,7 @@ class Scene(Measuring):
 
     def touch(self, mesh: Union[Mesh, Sequence[tuple[Mesh, Poses]]], poses: Optional[Poses] = None, *, margin: float = _NO_MARGIN,
               uncertainty: Optional[tuple[float, float]] = None, witness: bool = False, solid: bool = False,
-              resolution: float = RESOLUTION, max_steps: int = core.DEFAULT_TOUCH_STEPS, progress: Progress = None) -> Touch:
+              resolution: float = RESOLUTION, max_steps: int = _TOUCH_STEPS, progress: Progress = None) -> Touch:
         """Decides whether each pose touches: a `Touch` with a row for each pose, in order.
 
         The mesh is its surface, unless `solid`: an opaque region that a closed mesh encloses without touching it is no
@@ -229,23 +230,25 @@ class Scene(Measuring):
         """
         options = _PLAIN_TOUCH
         if (margin is not _NO_MARGIN or uncertainty is not None or witness or solid or resolution is not RESOLUTION
-                or max_steps is not core.DEFAULT_TOUCH_STEPS):
+                or max_steps is not _TOUCH_STEPS):
             distance, angle = (0.0, 0.0) if uncertainty is None else _uncertainty_of(uncertainty)
             if witness and uncertainty is not None:
                 raise InvalidArgumentError("a touch has witness= or uncertainty=, not both")
             steps = whole_number(max_steps, "max_steps", 1)
-            size = 0.0 if resolution is RESOLUTION else not_zero(number(resolution, "resolution"), "count", "resolution")
-            options = (number(margin, "margin"), distance, angle, bool(witness), size,
-                       0 if steps == core.DEFAULT_TOUCH_STEPS else steps, bool(solid))
+            settings = {"margin": number(margin, "margin") or None, "uncertainty_distance": distance or None,
+                        "uncertainty_angle": angle or None, "witness": bool(witness) or None, "solid": bool(solid) or None,
+                        "resolution": None if resolution is RESOLUTION else number(resolution, "resolution"),
+                        "max_steps": None if steps == _TOUCH_STEPS else steps}
+            options = tuple((name, value) for name, value in settings.items() if value is not None)
         meshes, matrices = asked(mesh, poses, self._volume)
         if progress is None:
             tables = self._core.touch(meshes, matrices, options, None)
         else:
             with told(progress, pairs_in(meshes, matrices)) as tell:
                 tables = self._core.touch(meshes, matrices, options, tell)
-        if not self._warned and not solid and not tables.touches():
+        if mesh is not self._last and not self._warned and not solid and not tables.touches():
             self._warn_of_enclosed(len(tables), mesh, matrices)
-        return Touch(tables, None if self._labels is None else self._labels._core, options[3])
+        return Touch(tables, None if self._labels is None else self._labels._core, bool(witness))
 
     def count(self, mesh: Union[Mesh, Sequence[tuple[Mesh, Poses]]], poses: Optional[Poses] = None, *,
               triangles: bool = False, contacts: bool = False, bounds: bool = False, labels: bool = False,
@@ -284,17 +287,9 @@ class Scene(Measuring):
 
         Raises InvalidArgumentError for shapes, NaN, and poses that are not affine (naming the first one).
         """
-        options: dict[str, Any] = {}
-        if triangles:
-            options["triangles"] = True
-        if contacts:
-            options["contacts"] = True
-        if bounds:
-            options["bounds"] = True
-        if labels:
-            options["labels"] = True
-        if stop_at_first:
-            options["stop_at_first"] = True
+        flags = {"triangles": triangles, "contacts": contacts, "bounds": bounds, "labels": labels, "stop_at_first": stop_at_first,
+                 "overestimate": overestimate, "counters": counters}
+        options: dict[str, Any] = {name: True for name, is_wanted in flags.items() if is_wanted}
         if projection != "certified":
             options["projection"] = projection
         if method not in (None, "auto"):
@@ -308,15 +303,11 @@ class Scene(Measuring):
             options["resolution"] = number(resolution, "resolution")
         if samples_per_voxel is not _SAMPLES_PER_VOXEL:
             options["samples_per_voxel"] = whole_number(samples_per_voxel, "samples_per_voxel", 1,
-                                                        core.MAX_SAMPLES_PER_VOXEL)
+                                                        lib.VXT_MAX_SAMPLES_PER_VOXEL)
         if max_depth is not _MAX_DEPTH:
             options["max_depth"] = number(max_depth, "max_depth")
         if max_contacts is not _MAX_CONTACTS:
             options["max_contacts"] = whole_number(max_contacts, "max_contacts")
-        if overestimate:
-            options["overestimate"] = True
-        if counters:
-            options["counters"] = True
         if view is not None:
             if not isinstance(view, tuple) or len(view) != 3:
                 raise TypeError(f"view is a {type(view).__name__}; a voxtact.View is needed")
@@ -335,7 +326,10 @@ class Scene(Measuring):
     def _warn_of_enclosed(self, pairs: int, mesh: Any, poses: Any) -> None:
         """Warns once per scene if the first pose of a mesh encloses an opaque region without touching it. Examines each mesh
         once, because that takes milliseconds."""
-        if not pairs or not isinstance(mesh, Mesh) or mesh._core in self._examined:
+        if not pairs or not isinstance(mesh, Mesh):
+            return
+        self._last = mesh
+        if mesh._core in self._examined:
             return
         self._examined.add(mesh._core)
         place = enclosed(self._volume, self.opacity, self.threshold, mesh, poses.reshape(-1, 4, 4)[0])
@@ -347,11 +341,11 @@ class Scene(Measuring):
     def plan(self, target: npt.ArrayLike, *, avoid: Sequence[Union[int, str]] = (), avoid_opacity: Opacity = None,
              avoid_volume: Any = None, needle: Optional[tuple[float, float]] = None, mesh: Optional[Mesh] = None,
              tip: Optional[npt.ArrayLike] = None, axis: Optional[npt.ArrayLike] = None,
-             entries: int = core.DEFAULT_PLAN_ENTRIES, entry_label: Union[None, int, str] = None,
+             entries: int = lib.VXT_DEFAULT_ENTRIES, entry_label: Union[None, int, str] = None,
              entry_radius: Optional[float] = None, border_entries: bool = False, margin: float = 0.0,
              max_length: Optional[float] = None, max_angle: Optional[float] = None,
-             tolerance: float = core.DEFAULT_PLAN_TOLERANCE, max: float = core.DEFAULT_PLAN_MAX,
-             max_steps: int = core.DEFAULT_PLAN_STEPS, triangle_distances: bool = False) -> Plan:
+             tolerance: float = standard("plan", "tolerance"), max: float = lib.VXT_DEFAULT_PLAN_MAX,
+             max_steps: int = lib.VXT_DEFAULT_PLAN_STEPS, triangle_distances: bool = False) -> Plan:
         """Finds straight paths to a target that avoid obstacles: a `Plan` with a row for each entry.
 
         An instrument moves straight from an entry to the target, its axis on that line. Its distance from the obstacles

@@ -44,7 +44,7 @@ class Tables:
     __slots__ = ("question", "lengths", "projection", "outputs", "max_contacts", "counted", "again", "_pieces", "_kept")
 
     def __init__(self, question: str, lengths: Sequence[int], projection: str = "certified", outputs: int = 0,
-                 max_contacts: int = 0, counted: bool = False, again: Any = None) -> None:
+                 max_contacts: Optional[int] = None, counted: bool = False, again: Any = None) -> None:
         self.question = question
         self.lengths = lengths
         self.projection = projection
@@ -66,7 +66,7 @@ class Tables:
             _layouts[self.question] = _layout_of(self._pieces[0][1])
         return _layouts[self.question]
 
-    def _names(self) -> list[str]:
+    def names(self) -> list[str]:
         """Returns the names of the tables; of a pickled or joined answer, those of the kept tables."""
         if self._pieces:
             return list(self._layout())
@@ -79,11 +79,26 @@ class Tables:
         return shown(ffi.cast("char*", column.data) - offset if column.rows else column.data, (column.rows,), rows, handle)
 
     def rows(self, table: str) -> npt.NDArray[Any]:
-        """Returns all rows of a table. Indices of pairs count from the first piece."""
+        """Returns all rows of a table. Indices of pairs, items and poses count from the first piece."""
         kept: Optional[npt.NDArray[Any]] = self._kept.get(table)
         if kept is None:
-            pieces = [self._piece(handle, table) for _, handle in self._pieces]
-            kept = self._kept[table] = pieces[0] if len(pieces) == 1 else _joined(pieces, [first for first, _ in self._pieces])
+            kept = self._join(table, [self._piece(handle, table) for _, handle in self._pieces], [first for first, _ in self._pieces])
+        return kept
+
+    def _join(self, table: str, pieces: list[npt.NDArray[Any]], firsts: list[int]) -> npt.NDArray[Any]:
+        """Joins and keeps the rows of all pieces, whose pairs begin at `firsts`."""
+        rows, names = pieces[0], pieces[0].dtype.names or ()
+        if len(pieces) > 1 or len(self.lengths) > 1 and "item" in names:
+            rows = np.concatenate(pieces, out=np.zeros(sum(map(len, pieces)), rows.dtype))
+        if len(pieces) > 1 and "pair" in names:
+            rows["pair"] += np.repeat(np.array(firsts, np.uint32), [len(piece) for piece in pieces])
+        if rows is not pieces[0] and len(rows) and "item" in names:  # the library does not know items without poses
+            pair: Any = rows["pair"] if "pair" in names else slice(None)
+            rows["item"], rows["pose"] = self.item()[pair], self.pose()[pair]
+        if rows is not pieces[0] and table == "totals":
+            for name in names:
+                rows[name][0] = rows[name].sum()
+        kept = self._kept[table] = rows[:{"contacts": self.max_contacts, "totals": 1}.get(table)]
         return kept
 
     def total(self, name: str) -> float:
@@ -103,7 +118,8 @@ class Tables:
             return one
         whole = cls(one.question, [sum(map(len, parts))], one.projection, one.outputs, one.max_contacts)
         firsts = [sum(map(len, parts[:number])) for number in range(len(parts))]
-        whole._kept = {table: _joined([part.rows(table) for part in parts], firsts) for table in one._names()}
+        for table in one.names():
+            whole._join(table, [part.rows(table) for part in parts], firsts)
         return whole
 
     # The table of pairs
@@ -143,7 +159,7 @@ class Tables:
             for handle in self.handles():
                 check(lib.vxt_answer_counters(handle, counters))
                 found.append([getattr(counters, name) for name in names])
-            self._kept["counters"] = tuple(max(column) if name.startswith("most_") or name == "room" else sum(column)
+            self._kept["counters"] = tuple(max(column) if name.startswith("peak_") or name == "room" else sum(column)
                                            for name, column in zip(names, zip(*found)))
         return self._kept.get("counters")
 
@@ -151,29 +167,17 @@ class Tables:
         return sum(self.lengths)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        kept = dict(self._kept)
-        kept.update((table, self.rows(table).copy()) for table in self._names())
+        kept = {table: self.rows(table).copy() for table in self.names()}
+        kept.update((name, value) for name, value in self._kept.items() if name not in kept)
         return _tables_again, (self.question, list(self.lengths), self.projection, self.outputs, self.max_contacts, kept)
 
 
-def _tables_again(question: str, lengths: list[int], projection: str, outputs: int, max_contacts: int, kept: dict[str, Any]) -> Tables:
+def _tables_again(question: str, lengths: list[int], projection: str, outputs: int, max_contacts: Optional[int],
+                  kept: dict[str, Any]) -> Tables:
     """Restores tables from a pickle."""
     tables = Tables(question, lengths, projection, outputs, max_contacts)
     tables._kept = kept
     return tables
-
-
-def _joined(pieces: list[npt.NDArray[Any]], firsts: list[int]) -> npt.NDArray[Any]:
-    """Joins the rows of all pieces; the pairs of each piece begin at these indices."""
-    whole = np.zeros(sum(map(len, pieces)), pieces[0].dtype)
-    begin = 0
-    for first, rows in zip(firsts, pieces):
-        part = whole[begin:begin + len(rows)]
-        part[...] = rows
-        if "pair" in (whole.dtype.names or ()):
-            part["pair"] += np.uint32(first)
-        begin += len(rows)
-    return whole
 
 
 # Copying an array takes less time than creating one.
@@ -193,7 +197,7 @@ class SingleTables(Tables):
     question = "touch"
     lengths = (1,)
     projection = "certified"
-    outputs = max_contacts = 0
+    outputs, max_contacts = 0, None
     counted = False
 
     def rows(self, table: str) -> npt.NDArray[Any]:

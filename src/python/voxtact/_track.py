@@ -6,7 +6,7 @@ from typing import NamedTuple, NoReturn
 
 import numpy.typing as npt
 
-from . import _core as core
+from . import _engine as core
 from ._common import check_made, not_pickled, numbers
 from ._mesh import Mesh
 

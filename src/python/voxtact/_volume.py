@@ -9,7 +9,7 @@ from typing import Any, Literal, Optional, Union
 import numpy as np
 import numpy.typing as npt
 
-from . import _core as core
+from . import _handles as core
 from ._common import (
     BUILTIN,
     LPS_FROM_RAS,

@@ -17,20 +17,18 @@ from __future__ import annotations
 import copy
 import functools
 from collections.abc import Callable
-from typing import Any, Literal, Optional, cast, get_args
+from typing import Any, Optional
 
 import numpy as np
 
-from ._answer import Area, Count, Distance, Overlap, Touch
+from ._answer import Touch
 from ._arguments import Poses, count_of
 from ._common import numbers, whole_number
-from ._errors import InvalidArgumentError
+from ._library import named, questions
 from ._mesh import Mesh
 from ._motion import Motion
 from ._scene import Scene
 from ._tables import Tables
-
-Question = Literal["touch", "count", "distance", "area", "overlap", "motion"]
 
 #: Minimum poses per task; a smaller task takes longer to send than to answer.
 PER_TASK = 100_000
@@ -43,13 +41,17 @@ def _kept_scene(make: Callable[[], Scene]) -> Scene:
 
 def _part(question: str, make: Callable[[], Scene], mesh: Mesh, poses: Any, options: dict[str, Any]) -> Any:
     """Runs a worker's part."""
-    return getattr(_kept_scene(make), question)(mesh, poses, **options)
+    scene = _kept_scene(make)
+    by_method = getattr(scene, question, None)
+    return scene.ask(question, mesh, poses, **options) if by_method is None else by_method(mesh, poses, **options)
 
 
-def ask(question: Question, scene_factory: Callable[[], Scene], mesh: Mesh,
+def ask(question: str, scene_factory: Callable[[], Scene], mesh: Mesh,
         poses: Poses, client: Optional[Any] = None, *, per_task: int = PER_TASK, **options: Any) -> Any:
     """Answers like `Scene.QUESTION(mesh, poses, **options)`, row for row, by the workers of a cluster.
 
+    question
+        a name in `voxtact.questions()`; `Scene.ask` answers those without a method
     scene_factory
         creates the scene; each worker calls it once. A function of a module, or another object that Dask can send
     client
@@ -66,8 +68,7 @@ def ask(question: Question, scene_factory: Callable[[], Scene], mesh: Mesh,
         from dask.distributed import get_client
 
         client = get_client()
-    if question not in get_args(Question):
-        raise InvalidArgumentError(f"question {question!r} is none of {', '.join(get_args(Question))}")
+    named(question, "question", tuple(one.name for one in questions()))
     matrices = numbers(poses, "poses")
     whole = matrices.reshape(-1, 4, 4) if matrices.shape[-2:] == (4, 4) else matrices
     size = whole_number(per_task, "per_task", 1)
@@ -87,4 +88,4 @@ def _joined(parts: list[Any]) -> Any:
         joined._impacts = np.concatenate([part.impacts for part in parts])
     if isinstance(joined, Touch) and joined._with_witness:
         joined._witness = np.concatenate([part.witness for part in parts])
-    return cast("Touch | Count | Distance | Area | Overlap | Motion", joined)
+    return joined

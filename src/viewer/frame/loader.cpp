@@ -21,7 +21,7 @@ Result<void> coarsen(Given& given, Progress& progress) {
     if (factor < 2) {
         return {};
     }
-    VOXTACT_TRY(progress.begin("making the volume coarser"));
+    VOXTACT_TRY(progress.begin("downsampling the volume"));
     Result<VolumeData> volume = coarser(given.volume, factor, [&](double share) { return progress.tell(share); });
     VOXTACT_TRY(volume);
     const Result<ValueRange> values = checkVolume(volume->view());
@@ -39,8 +39,8 @@ std::uint32_t largestSide(const Grid& grid) {
 Result<Volume> upload(const device::Session& session, const State& state, std::uint32_t mostSide) {
     if (mostSide != 0 && largestSide(state.volume.grid) > mostSide) {
         return Error{ErrorCode::LimitExceeded, 0,
-                     "the volume has " + sidesText(state.volume.grid) + " voxels, and at most " +
-                         std::to_string(mostSide) + " along a side are wanted (--volume-side)"};
+                     "the volume has " + sidesText(state.volume.grid) + " voxels; --volume-side allows at most " +
+                         std::to_string(mostSide) + " along a side"};
     }
     return Stage::upload(session, state.volume);
 }
@@ -166,11 +166,11 @@ Loader::Outcome Loader::done(const Job& job) const {
         Result<Given> given = job.task.read(progress);
         VOXTACT_TRY(given);
         VOXTACT_TRY(coarsen(*given, progress));
-        VOXTACT_TRY(progress.begin("looking at the voxels"));
+        VOXTACT_TRY(progress.begin("reading the voxels"));
         given->deviceName = session_->device.physical().name;
         loaded.state = std::make_unique<State>(std::move(*given));
         State& state = *loaded.state;
-        VOXTACT_TRY(progress.begin("volume to the device"));
+        VOXTACT_TRY(progress.begin("uploading the volume"));
         Result<Volume> volume = upload(*session_, state, job.task.mostSide);
         if (!volume.ok()) {
             if (isTooLarge(volume.error()) && largestSide(state.volume.grid) > 2) {

@@ -32,7 +32,7 @@ Result<std::uint32_t> memoryType(const device::VulkanDevice& device, std::uint32
             return type;
         }
     }
-    return Error{ErrorCode::Unsupported, 0, "the device has no memory of the kind that the window's pictures need"};
+    return Error{ErrorCode::Unsupported, 0, "the device has no suitable memory for the pictures of the window"};
 }
 
 Result<void> allocate(const device::VulkanDevice& device, const VkMemoryRequirements& needs,

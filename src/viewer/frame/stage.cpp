@@ -44,11 +44,11 @@ Result<Volume> Stage::upload(const device::Session& session, const VolumeData& v
 Result<std::unique_ptr<Stage>> Stage::create(const device::Session& session, const State& state, Volume volume,
                                              const StageDesc& desc, Progress& progress) {
     auto stage = std::make_unique<Stage>();
-    VOXTACT_TRY(progress.begin("building what the host answers from"));
+    VOXTACT_TRY(progress.begin("building the host engine"));
     Result<std::unique_ptr<HostAnswers>> host = HostAnswers::create(state, desc.wake);
     VOXTACT_TRY(host);
     stage->host = std::move(*host);
-    VOXTACT_TRY(progress.begin("mesh and tables to the device"));
+    VOXTACT_TRY(progress.begin("uploading meshes and tables"));
     Result<std::unique_ptr<DeviceScene>> scene =
         DeviceScene::create(session, state, std::move(volume), desc.light(state.volume.grid));
     VOXTACT_TRY(scene);
@@ -58,7 +58,7 @@ Result<std::unique_ptr<Stage>> Stage::create(const device::Session& session, con
     Result<std::unique_ptr<BesideAnswers>> beside = BesideAnswers::create(session, *stage->scene, detectors, desc.wake);
     VOXTACT_TRY(beside);
     stage->beside = std::move(*beside);
-    VOXTACT_TRY(progress.begin("compiling what draws and answers"));
+    VOXTACT_TRY(progress.begin("compiling shaders"));
     Result<Pictures> pictures = Pictures::create(session, stage->scene->renderer(), desc.picture);
     VOXTACT_TRY(pictures);
     stage->pictures.emplace(std::move(*pictures));

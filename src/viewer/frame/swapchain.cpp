@@ -41,12 +41,12 @@ Result<Swapchain> Swapchain::create(const device::VulkanDevice& device, VkSurfac
         instanceFunction<PFN_vkGetPhysicalDeviceSurfaceSupportKHR>(device, "vkGetPhysicalDeviceSurfaceSupportKHR");
     const VkResult result = ask(device.contextDesc().physicalDevice, device.queueAccess().family, surface, &supported);
     if (result != VK_SUCCESS) {
-        return device::vulkanError(result, "asking whether the device can show pictures in a window");
+        return device::vulkanError(result, "querying whether the device can present to a window");
     }
     if (supported != VK_TRUE) {
         return Error{ErrorCode::Unsupported, 0,
                      "the device '" + device.physical().name +
-                         "' cannot show pictures in a window of this display; choose another with --device"};
+                         "' cannot present to a window of this display; choose another with --device"};
     }
     VOXTACT_TRY(out.chooseFormat());
     return out;
@@ -110,7 +110,7 @@ Result<void> Swapchain::resize(VkExtent2D extent) {
     VkSurfaceCapabilitiesKHR can{};
     VkResult result = ask(device_->contextDesc().physicalDevice, surface_, &can);
     if (result != VK_SUCCESS) {
-        return device::vulkanError(result, "asking for the size of the window");
+        return device::vulkanError(result, "querying the size of the window");
     }
     extent_ = extentFor(can, extent);
     stale_ = true;
@@ -188,7 +188,7 @@ Result<bool> Swapchain::acquire(VkSemaphore acquired, std::uint32_t& image) {
         return false;
     }
     if (result != VK_SUCCESS && result != VK_SUBOPTIMAL_KHR) {
-        return device::vulkanError(result, "taking an image of the window");
+        return device::vulkanError(result, "acquiring an image of the window");
     }
     stale_ = result == VK_SUBOPTIMAL_KHR;
     return true;

@@ -62,7 +62,7 @@ void drawStrip(const State& state) {
     }
     ImGui::Dummy(size);
     if (ImGui::IsItemHovered()) {
-        ImGui::SetTooltip("the last %.0f s: what was said, and how long it took (0.01 ms to 1 s)", Strip::kSeconds);
+        ImGui::SetTooltip("answers of the last %.0f s and their times (0.01 ms to 1 s)", Strip::kSeconds);
     }
 }
 
@@ -99,9 +99,9 @@ void drawDistance(const State& state) {
     ImGui::TextColored(colour, "%s", shortened(text, ImGui::GetContentRegionAvail().x).c_str());
     if (ImGui::IsItemHovered()) {
         ImGui::SetTooltip("%s\n"
-                          "Certified, by the host, in %.1f ms for all meshes: between these bounds lies\n"
-                          "the least distance between the mesh and what is opaque or, where it touches,\n"
-                          "the area of its surface that is opaque.",
+                          "Certified bounds from the host engine, in %.1f ms for all meshes: the distance\n"
+                          "from the mesh to the opaque region or, if it touches,\n"
+                          "the opaque area of its surface.",
                           text.c_str(), state.distances->milliseconds);
     }
     if (const std::string overlap = overlapText(*measured); !overlap.empty()) {
@@ -134,7 +134,7 @@ void drawAnswer(State& state) {
         }
     }
     if (state.chosenAnswer() == nullptr) {
-        ImGui::TextColored(quietColour(), "asking ...");
+        ImGui::TextColored(quietColour(), "waiting for the answer ...");
         drawMethods(state);
         return;
     }
@@ -165,8 +165,8 @@ std::string commandOf(const State& state) {
 void copyCommand(State& state) {
     ImGui::SetClipboardText(commandOf(state).c_str());
     state.say(state.document.edit.holes == 0
-                  ? "copied: voxtact count with the pose, curve and method that are shown"
-                  : "copied: voxtact count with what is shown, but without the holes, which are in no file");
+                  ? "copied: voxtact count with the shown pose, curve and method"
+                  : "copied: voxtact count with the shown settings, but without the holes, which are in no file");
 }
 
 void drawContacts(State& state) {

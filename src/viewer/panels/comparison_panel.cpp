@@ -63,7 +63,7 @@ void drawComparison(State& state) {
         const bool current = state.comparison.isOf(state.document.edit);
         ImGui::TextColored(quietColour(), "%s",
                            current && state.comparison.complete()
-                               ? "of the chosen mesh; a click makes a method the one that answers"
+                               ? "for the chosen mesh; click a method to answer by it"
                                : "counting ...");
         const ImGuiTableFlags flags =
             ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_SizingStretchProp;

@@ -202,7 +202,7 @@ void drawChosen(State& state) {
     if (!state.curvePoint || *state.curvePoint >= curve.size()) {
         state.curvePoint.reset();
         ImGui::AlignTextToFramePadding(); // as high as the fields
-        ImGui::TextColored(quietColour(), "click the curve for a point");
+        ImGui::TextColored(quietColour(), "click the curve to add a point");
         return;
     }
     ControlPoint typed = curve[*state.curvePoint];

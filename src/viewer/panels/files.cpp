@@ -43,7 +43,7 @@ void drawPictureSize(const State& state) {
         }
         ImGui::SameLine();
     }
-    if (ImGui::Button("as in the window")) {
+    if (ImGui::Button("size in the window")) {
         sides = {0, 0};
     }
 }
@@ -75,7 +75,7 @@ std::array<PathDialog, 5>& dialogs() {
         {kSession, "save", "session.json", checkSession,
          [](const std::filesystem::path& path, State& state) -> Result<void> {
              VOXTACT_TRY(saveSession(path, state));
-             state.say("the session is in " + path.string());
+             state.say("saved the session as " + path.string());
              state.taken.push_back(path.string());
              return {};
          }},
@@ -106,7 +106,7 @@ struct Buttons {
 Buttons drawButtons(const PathDialog& dialog, bool isAsked) {
     Buttons pressed;
     if (isAsked) {
-        ImGui::TextColored(verdictColour(2), "It is there already. Replace it?");
+        ImGui::TextColored(verdictColour(2), "The file exists. Replace it?");
         // At the position of the other button, so that the second click of a double click answers nothing.
         pressed.cancel = ImGui::Button("cancel");
         ImGui::SameLine();

@@ -32,7 +32,7 @@ void drawPlace(State& state) {
         state.history.end();
     }
     if (ImGui::IsItemHovered()) {
-        ImGui::SetTooltip("mm along x, y, z of the world: where the origin of the mesh is");
+        ImGui::SetTooltip("position of the mesh origin: world x, y, z, mm");
     }
 }
 
@@ -60,7 +60,7 @@ void drawAngles(State& state) {
         state.history.end();
     }
     if (ImGui::IsItemHovered()) {
-        ImGui::SetTooltip("degrees about x, then y, then z of the world, round the origin of the mesh");
+        ImGui::SetTooltip("rotation about the mesh origin: degrees about world x, then y, then z");
     }
 }
 
@@ -131,7 +131,7 @@ void drawDrill(State& state) {
         state.drillRadius = std::clamp(state.drillRadius, kLeast, kMost);
     }
     if (ImGui::IsItemHovered()) {
-        ImGui::SetTooltip("radius of the holes; their voxels get the image's smallest value");
+        ImGui::SetTooltip("radius of the holes; their voxels get the minimum value of the image");
     }
     sameLine(widthOfButton("drill at the tip"));
     if (ImGui::Button("drill at the tip")) {

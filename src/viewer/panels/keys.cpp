@@ -265,28 +265,28 @@ void drawHelp(State& state) {
         for (const Nudge& one : kNudges) {
             row(one.name, one.does);
         }
-        row("shift, control", "with these keys: ten steps, a tenth (control: not with letters)");
-        row("[  ]", "the pose before, the next one");
+        row("shift, control", "with these keys: ten steps, a tenth of a step (control: not with letters)");
+        row("[  ]", "previous pose, next pose");
         row("space", "play the list of poses");
         for (const Direction& direction : kDirections) {
             row(direction.name, direction.view);
         }
-        row("M, V, delete", "of several meshes the next one; it is shown or not; it is removed");
+        row("M, V, delete", "choose the next mesh; show or hide it; remove it");
         row("K", "the counts of all methods side by side");
         row("F", "frame the volume");
         row("G", "slices through the tip");
-        row("H, T", "handles at the tip: shown or not; along the axes of the world, of the view, its own");
+        row("H, T", "handles at the tip: show or hide; axes of the world, the view, the mesh");
         row("X, C", "drill a hole at the tip, at the cursor of the slices");
         row("control Z, control Y", "undo, redo");
         row("control C", "copy as command");
-        row("control O", "open a file, as does dropping it on the window; escape: cancel while it is loaded");
+        row("control O", "open a file (or drop it on the window); escape: cancel loading");
         row("control S, control P", "save the session, a picture (escape cancels it)");
         row("control Q", "quit");
-        row("escape", "close what is open over the panels; a picture or slice as large as before");
+        row("escape", "close dialogs and menus; restore an enlarged picture or slice");
         row("handles", "drag: arrows move along an axis, squares in a plane, rings turn; control: in steps");
-        row("picture", "left: turn; right or middle: move; wheel: nearer; double click: larger");
-        row("cube", "click: look at a side of the patient");
-        row("slices", "left: place; right: window and level; wheel: slice; double click: larger");
+        row("picture", "left: turn; right or middle: move; wheel: zoom; double click: enlarge");
+        row("cube", "click: view from that side of the patient");
+        row("slices", "left: place the cursor; right: window and level; wheel: next slice; double click: enlarge");
         row("curve", "left: add or drag a point; right: remove it; wheel: zoom the values; middle: move them");
         ImGui::EndTable();
     }

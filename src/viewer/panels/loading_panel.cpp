@@ -48,7 +48,7 @@ void drawLoading(State& state) {
 }
 
 void drawSaving(State& state) {
-    constexpr const char* kTitle = "Making the picture";
+    constexpr const char* kTitle = "Saving the picture";
     if (state.saving && !ImGui::IsPopupOpen(kTitle)) {
         ImGui::OpenPopup(kTitle);
     }

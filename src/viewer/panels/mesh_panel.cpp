@@ -71,7 +71,7 @@ void drawRow(const State& state, std::size_t number, Wish& wish) {
         wish.show = number;
     }
     if (ImGui::IsItemHovered()) {
-        ImGui::SetTooltip("in the picture and the slices; it is answered for in any case");
+        ImGui::SetTooltip("show in picture and slices; hidden meshes are still answered");
     }
     ImGui::TableNextColumn();
     ImGui::ColorButton("##colour", instrumentColour(instrument.mesh), ImGuiColorEditFlags_NoTooltip,

@@ -91,14 +91,14 @@ void drawVerdict(const State& state, const Onto& onto, ImDrawList& list) {
         return;
     }
     const MeshAnswer& answer = *state.chosenAnswer();
-    std::string text = answer.pair.hit ? "touches" : answer.pair.possible ? "may touch" : "does not touch";
+    std::string text = answer.pair.hit ? "touches" : answer.pair.possible ? "undecided" : "does not touch";
     const float size = ImGui::GetFontSize() * 1.3F;
     const ImVec2 at{onto.corner.x + scaled(12), onto.corner.y + scaled(9)};
     list.AddText(ImGui::GetFont(), size, {at.x + scaled(1), at.y + scaled(1)}, IM_COL32(0, 0, 0, 200), text.c_str());
     list.AddText(ImGui::GetFont(), size, at, ImGui::GetColorU32(verdictOnPicture(hitNumber(answer.pair))),
                  text.c_str());
     if (const std::uint32_t coarser = state.document.sources.coarser; coarser > 1) {
-        const std::string copy = "of a copy that is coarser by " + std::to_string(coarser);
+        const std::string copy = "for a copy that is coarser by " + std::to_string(coarser);
         list.AddText({at.x, at.y + size * 1.2F}, IM_COL32(245, 196, 66, 255), copy.c_str());
     }
 }

@@ -123,7 +123,7 @@ Outcome runView(const ViewerOptions& options) {
 
 Command addView(CLI::App& program) {
     auto options = std::make_shared<ViewerOptions>();
-    CLI::App* parser = program.add_subcommand("view", "a window: volume, mesh and answer while they change");
+    CLI::App* parser = program.add_subcommand("view", "open a window with volume, meshes and live answers");
     addViewerOptions(*parser, *options);
     return {parser, [options] { return runView(*options); }};
 }

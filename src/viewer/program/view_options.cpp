@@ -17,7 +17,7 @@ namespace voxtact::app {
 namespace {
 
 constexpr const char* kViewFooter =
-    R"(Shows the volume, the meshes and three slices, and whether they touch after each
+    R"(Shows the volume, the meshes and three slices. Tests for touch after each
 change. F1 shows keys and mouse. Default: the builtin head and scalpel.
 Needs an X11 display and a Vulkan driver. --device cpu answers on the host.
 
@@ -82,7 +82,7 @@ Result<void> checkSize(const VkExtent2D& size) {
     };
     const view::Extent& least = view::kLeastWindow;
     if (size.width < least.width || size.height < least.height || size.width > kMost || size.height > kMost) {
-        return badArgument("--size " + text(size.width, size.height) + ": a window has " +
+        return badArgument("--size " + text(size.width, size.height) + ": a window needs " +
                            text(least.width, least.height) + " to " + text(kMost, kMost) + " points");
     }
     return {};
@@ -160,7 +160,7 @@ void addViewerOptions(CLI::App& parser, ViewerOptions& options) {
         parser.remove_option(parser.get_option(fixed));
     }
     addDeviceOptions(parser, options.device);
-    addPath(parser, "--session", options.session, "session file, from File, Save session");
+    addPath(parser, "--session", options.session, "session file that the window saved");
     for (const char* other :
          {"--volume", "--mesh", "--mesh-space", "--mesh-scale", "--poses", "--transfer-function", "--opacity",
           "--tf-domain", "--tf-size", "--opacity-threshold", "--preset", "--labels", "--label-names"}) {
@@ -170,12 +170,12 @@ void addViewerOptions(CLI::App& parser, ViewerOptions& options) {
             "JSON file, rewritten after each answer: touch, count, method, projection, pose, labels, command");
     addWholeNumber(
         parser, "--frames", [&options](std::uint32_t frames) { options.frames = frames; }, {.least = 1},
-        "end after N frames; 0: when the window is closed", 0);
+        "exit after N frames; 0: never", 0);
     addWholeNumber(
         parser, "--volume-side", [&options](std::uint32_t side) { options.mostSide = side; }, {.least = 2},
-        "maximum voxels along a side; larger volumes are offered as a coarser copy; 0: the device's limit", 0);
+        "maximum voxels along a side; larger volumes: offer a coarser copy; 0: the device's limit", 0);
     addSize(
-        parser, [&options](const VkExtent2D& size) { options.size = size; }, "window, in points",
+        parser, [&options](const VkExtent2D& size) { options.size = size; }, "window size, points",
         std::to_string(options.size.width) + "x" + std::to_string(options.size.height));
     for (const char* rare : {"--label-names", "--report-state", "--frames", "--volume-side"}) {
         setRare(parser, rare);
@@ -184,21 +184,21 @@ void addViewerOptions(CLI::App& parser, ViewerOptions& options) {
 
 Result<void> checkViewerOptions(const ViewerOptions& options) {
     if (options.volumes.size() > 1) {
-        return badArgument("--volume: the window shows one; leave out the others");
+        return badArgument("--volume: the window shows only one; leave out the others");
     }
     if (options.device.wanted == "cpu" && options.method.count.value_or(CountingMethod::Cpu) != CountingMethod::Cpu) {
         return badArgument(std::string("--method ") + toString(*options.method.count) +
-                           ": --device cpu has the host answer, by the method cpu; leave out one of the two");
+                           ": --device cpu answers by the method cpu; leave out one of the two");
     }
     const view::MethodChoice method = methodOf(options).value_or(view::MethodChoice{});
     if (rowOf(method.projection).certified && !rowOf(method.count).certified) {
         return badArgument(std::string("--method ") + toString(method.count) +
-                           ": the projection certified is answered by compute and cpu only; choose another "
+                           ": only compute and cpu support the projection certified; choose another "
                            "--projection");
     }
     VOXTACT_TRY(checkSize(options.size));
     if (options.labels.empty() && !options.labelNames.empty()) {
-        return badArgument("--label-names: it names the labels of a label map, and --labels is not given");
+        return badArgument("--label-names: it needs a label map; add --labels");
     }
     ViewOptions inputs;
     inputs.poses = options.poses;
@@ -208,7 +208,7 @@ Result<void> checkViewerOptions(const ViewerOptions& options) {
         paths.push_back({"--label-names", labelNamesPath(options.labelNames, options.labels)});
     }
     if (options.reportState == "-") {
-        return badArgument("--report-state: '-' is not a file, and it is rewritten after each answer; give a path");
+        return badArgument("--report-state: '-' is not a file that can be rewritten; give a path");
     }
     if (!options.session.empty() && !options.reportState.empty()) {
         addSessionPaths(paths, options.session);

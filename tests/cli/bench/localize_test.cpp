@@ -69,15 +69,15 @@ TEST_F(LocalizeCommandTest, AShareOfNothingIsNone) {
     EXPECT_TRUE(result["ways"][0]["missed_percent"].is_null());
     EXPECT_EQ(result["ways"][0]["missed"], 0);
     EXPECT_EQ(result["scene"]["opacity"], "300:0,400:1");
-    EXPECT_EQ(result["summary"][1], "the camera shows 0 touching triangles, 0 certainly touch");
-    EXPECT_THAT(result["notes"].dump(), HasSubstr("nothing touches on any pose"));
+    EXPECT_EQ(result["summary"][1], "the camera shows 0 touching triangles; 0 certainly touch");
+    EXPECT_THAT(result["notes"].dump(), HasSubstr("no pose touches"));
 }
 
 TEST_F(LocalizeCommandTest, WhatHasNothingToDoWithItIsRefused) {
     EXPECT_THAT(refused(2, localize({"--sweep", "batch"})), AllOf(HasSubstr("--localize"), HasSubstr("--sweep")));
     EXPECT_THAT(refused(2, localize({"--report", path("report.html")})), HasSubstr("--report"));
     EXPECT_THAT(refused(2, localize({"--only-pose", "8"})), HasSubstr("there is no pose 8, the last is 7"));
-    EXPECT_THAT(refused(2, localize({"--mesh", "builtin:ellipsoid"})), HasSubstr("one --volume and one --mesh"));
+    EXPECT_THAT(refused(2, localize({"--mesh", "builtin:ellipsoid"})), HasSubstr("--volume, --mesh: give each once"));
     EXPECT_THAT(refused(1, localize({"--output", path("none/out.csv")})), HasSubstr("does not exist"));
 }
 

@@ -261,7 +261,7 @@ TEST_F(PaperTest, WhatCannotBeDoneIsOneLine) {
          std::vector<Arguments>{{"--data", "."}, {"--size", "8x8"}, {"--scale", "2"}, {"--report", "r.html"}}) {
         Arguments all{"bench", "--outputs"};
         all.insert(all.end(), more.begin(), more.end());
-        EXPECT_THAT(refused(2, all), HasSubstr(more[0] + " is for --paper"));
+        EXPECT_THAT(refused(2, all), HasSubstr(more[0] + " needs --paper"));
     }
     EXPECT_THAT(refused(2, paper({"--size", "0x8"})), HasSubstr("--size"));
     EXPECT_THAT(refused(2, paper({"--size", "99999x8"})), HasSubstr("--size"));

@@ -143,7 +143,7 @@ TEST_F(PlanTest, RefusesHeatMapsThatCannotBe) {
     };
     EXPECT_THAT(line({"--heat-map", path("map.png")}), HasSubstr("must be .nii.gz, .nii, .nrrd or .mha"));
     EXPECT_THAT(line({"--target", "0,0,20", "--heat-map", path("map.nii")}),
-                HasSubstr("--heat-map: there are 2 targets, and each has a file of its own; put {target} into '"));
+                HasSubstr("--heat-map: there are 2 targets with one file each; put {target} into '"));
     EXPECT_THAT(line({"--labels", path("labels.nii.gz"), "--heat-map", path("labels.nii.gz")}),
                 HasSubstr("--heat-map"));
     // A slanted grid is no NIfTI's.

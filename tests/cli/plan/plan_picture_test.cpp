@@ -134,8 +134,8 @@ TEST_F(PlanPictureRefusals, AreOneLine) {
         return refused(status, all);
     };
     EXPECT_THAT(line(2, {"--picture", path("a.jpg")}), HasSubstr("--picture: the ending of"));
-    EXPECT_THAT(line(2, {"--size", "64x64"}), HasSubstr("--size: it is about a picture"));
-    EXPECT_THAT(line(2, {"--device", "0"}), HasSubstr("--device: it is about a picture"));
+    EXPECT_THAT(line(2, {"--size", "64x64"}), HasSubstr("--size: it applies to a picture"));
+    EXPECT_THAT(line(2, {"--device", "0"}), HasSubstr("--device: it applies to a picture"));
     EXPECT_THAT(line(2, {"--picture", path("a.png"), "--device", "no such device"}), HasSubstr("'no such device'"));
     const RunOptions none{.environment = {{"VK_ICD_FILENAMES", "/nonexistent"}, {"VK_DRIVER_FILES", "/nonexistent"}}};
     EXPECT_THAT(refused(1,

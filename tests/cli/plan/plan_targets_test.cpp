@@ -61,7 +61,7 @@ TEST_F(PlanTest, SeveralTargetsAreEachAsAlone) {
         run(plan(with({"--target", "20,0,30", "--target", "-5,0,30", "--summary", "--report", path("report.html")})));
     EXPECT_EQ(ran.status, 0);
     const std::string html = readText(path("report.html"));
-    for (const char* part : {"<h1>Paths to 2 targets</h1>", "The safest paths of all",
+    for (const char* part : {"<h1>Paths to 2 targets</h1>", "Safest paths of all targets",
                              "<h2 id=\"target-2\">Target 2, (-5.00, 0.00, 30.00)</h2>"}) {
         EXPECT_THAT(html, HasSubstr(part));
     }
@@ -113,8 +113,8 @@ TEST_F(PlanTest, RefusesOneFileForTwoTargets) {
         return refused(2, plan(all));
     };
     EXPECT_THAT(line({"--surface", path("{target}.ply")}),
-                HasSubstr("--surface: the targets 'a/b' and 'a:b' would both be '" + path("a_b.ply") +
-                          "'; give one of them another name in a file of --targets"));
+                HasSubstr("--surface: the targets 'a/b' and 'a:b' would both be written to '" + path("a_b.ply") +
+                          "'; rename one of them in a file of --targets"));
     writeText(path("targets.txt"), "20 0 30 a\n-5 0 30 b\n");
     EXPECT_THAT(line({"--surface", path("{target}.ply"), "--output", path("b.ply")}),
                 HasSubstr("--output and --surface: both are '" + path("b.ply") + "'"));
@@ -159,17 +159,16 @@ TEST_F(PlanTest, RefusesTargetsThatItCannotTell) {
         all.insert(all.end(), more.begin(), more.end());
         return refused(status, plan(all));
     };
-    EXPECT_THAT(line({}), HasSubstr("--target, --target-label, --targets: one of them must say where the tip goes"));
-    EXPECT_THAT(line({"--target-label", "70"}), HasSubstr("--target-label: it is about labels"));
+    EXPECT_THAT(line({}), HasSubstr("no target; add --target, --target-label or --targets"));
+    EXPECT_THAT(line({"--target-label", "70"}), HasSubstr("--target-label: it needs a label map"));
     const std::string labels = path("labels.nii.gz");
     EXPECT_THAT(line({"--labels", labels, "--target", "70", "--target-label", "Skin,Cortex"}),
-                HasSubstr("--target-label: there is a target 'Cortex' already"));
+                HasSubstr("--target-label: the target 'Cortex' exists already"));
     EXPECT_THAT(line({"--target", "20,0,30", "--target", "0,0,20", "--surface", path("a.ply")}),
-                HasSubstr("--surface: there are 2 targets, and each has a file of its own; put {target} into '"));
+                HasSubstr("--surface: there are 2 targets with one file each; put {target} into '"));
     for (const char* wrong : {"20,0", "nan,0,0", "1,2,3,4", "1,,2"}) {
         EXPECT_THAT(line({"--labels", labels, "--target", wrong}),
-                    HasSubstr("--target: '" + std::string(wrong) +
-                              "' is neither a point x,y,z, three finite numbers, nor a label"));
+                    HasSubstr("--target: '" + std::string(wrong) + "' is neither a point x,y,z nor a label"));
     }
     // Of what is beyond the limits the target is named.
     EXPECT_THAT(line({"--target", "20,0,30", "--target", "0,0,20", "--entry-radius", "40", "--max-length", "30"}),
@@ -185,8 +184,8 @@ TEST_F(PlanTest, RefusesTargetsThatItCannotTell) {
     EXPECT_THAT(lineOf("1 2 x\n", 1), HasSubstr("line 1: 'x' is not a number"));
     EXPECT_THAT(lineOf("1 2 3 here and\n", 1), HasSubstr("this has 5 words"));
     EXPECT_THAT(lineOf("# none\n", 1), HasSubstr("it has no point"));
-    EXPECT_THAT(lineOf("1 2 500\n", 2), HasSubstr("line 1: (1, 2, 500) is outside of the volume"));
-    EXPECT_THAT(lineOf("1 2 3 a\n4 5 6 a\n", 2), HasSubstr("line 2: there is a target 'a' already"));
+    EXPECT_THAT(lineOf("1 2 500\n", 2), HasSubstr("line 1: (1, 2, 500) is outside the volume"));
+    EXPECT_THAT(lineOf("1 2 3 a\n4 5 6 a\n", 2), HasSubstr("line 2: the target 'a' exists already"));
     writeText(file, "1 2 3\n");
     EXPECT_THAT(line({"--targets", file, "--output", file}), HasSubstr("--targets"));
     EXPECT_THAT(line({"--targets", path("none.txt")}, 1), HasSubstr("none.txt"));

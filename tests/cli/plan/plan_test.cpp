@@ -172,25 +172,25 @@ TEST_F(PlanTest, RefusesWhatItCannotUse) {
         all.insert(all.end(), more.begin(), more.end());
         return line(all);
     };
-    EXPECT_THAT(avoiding({"--target", "500,0,0"}), HasSubstr("--target: (500, 0, 0) is outside of the volume"));
+    EXPECT_THAT(avoiding({"--target", "500,0,0"}), HasSubstr("--target: (500, 0, 0) is outside the volume"));
     EXPECT_THAT(avoiding({"--target", "1,2"}), HasSubstr("is not a point x,y,z"));
-    EXPECT_THAT(avoiding({"--target", "0,0,0", "--axis", "0,0,0"}), HasSubstr("--axis: 0,0,0 points nowhere"));
+    EXPECT_THAT(avoiding({"--target", "0,0,0", "--axis", "0,0,0"}), HasSubstr("--axis: 0,0,0 has no direction"));
     EXPECT_THAT(avoiding({"--target", "0,0,0", "--axis", "0,1"}), HasSubstr("is not three numbers"));
     EXPECT_THAT(avoiding({"--target", "0,0,0", "--axis", "0,0,1"}), HasSubstr("has its own tip and axis"));
     EXPECT_THAT(avoiding({"--target", "0,0,0", "--mesh", "builtin:scalpel:300", "--tip", "0,0,0"}),
-                HasSubstr("--axis: it is needed"));
+                HasSubstr("--axis: add it"));
     EXPECT_THAT(avoiding({"--target", "0,0,0", "--mesh", "builtin:needle:3:1"}), HasSubstr("no smaller than that"));
     EXPECT_THAT(avoiding({"--target", "0,0,0", "--entries", "0"}), HasSubstr("--entries"));
     EXPECT_THAT(avoiding({"--target", "0,0,0", "--margin", "-1"}), HasSubstr("--margin"));
     EXPECT_THAT(avoiding({"--target", "0,0,0", "--surface", "a.stl"}), HasSubstr("must be .ply"));
     EXPECT_THAT(avoiding({"--target", "0,0,0", "--report", "a.pdf"}), HasSubstr("must be .html"));
     EXPECT_THAT(avoiding({"--target", "0,0,0", "--progress", "always"}),
-                HasSubstr("--progress: 'always' is not known"));
+                HasSubstr("--progress: 'always' is unknown"));
     EXPECT_THAT(avoiding({"--target", "0,0,0", "--opacity-threshold", "1", "--opacity", "0:0,1:0"}),
                 HasSubstr("meets the surface of entries"));
     EXPECT_THAT(avoiding({"--target", "0,0,0", "--max-length", "1"}), HasSubstr("too long"));
-    EXPECT_THAT(line({"--target", "0,0,0"}), HasSubstr("one of them must say what is not to be touched"));
-    EXPECT_THAT(line({"--target", "0,0,0", "--avoid", "1"}), HasSubstr("--labels is not given"));
+    EXPECT_THAT(line({"--target", "0,0,0"}), HasSubstr("no obstacle; add --avoid or --avoid-opacity"));
+    EXPECT_THAT(line({"--target", "0,0,0", "--avoid", "1"}), HasSubstr("--avoid: it needs a label map; add --labels"));
     EXPECT_THAT(line(labelled({"--avoid", "Skul"})), HasSubstr("did you mean Skull?"));
     EXPECT_THAT(line(labelled({"--avoid", "999"})), HasSubstr("no voxel of the label map has the label '999'"));
     EXPECT_THAT(refused(2, plan({"--labels", path("labels.nii.gz"), "--avoid", "Skin", "--target", "Cortx"})),
@@ -219,7 +219,7 @@ TEST_F(PlanTest, RefusesWhatItCannotUse) {
 TEST_F(PlanTest, SaysWhatItDoesNotAsk) {
     const Arguments given{"--target",       "0,0,0", "--avoid-opacity", "200:0,201:1",
                           "--entry-radius", "40",    "--opacity",       "40:0,80:1"};
-    output(plan(given), {.note = "they are not used"});
+    output(plan(given), {.note = "are not used"});
 }
 
 } // namespace

@@ -142,24 +142,24 @@ TEST_F(RenderSliceTest, OutlinesSayWhereItTouches) {
 /// What is given for nothing is said.
 TEST_F(RenderSliceTest, WhatASliceDoesNotAsk) {
     const std::string png = path("a.png");
-    EXPECT_THAT(refused(2, render(png, {"--slice", "axial", "--validate"})), HasSubstr("there is nothing to validate"));
+    EXPECT_THAT(refused(2, render(png, {"--slice", "axial", "--validate"})), HasSubstr("a slice uses no Vulkan"));
     EXPECT_EQ(filesInFolder(), 0U);
-    output(render(png, {"--slice", "axial", "--device", "no such device"}), {.note = "--device: a slice is drawn"});
-    output(render(png, {"--slice", "axial", "--opacity", "40:0,80:1"}), {.note = "they are not used"});
+    output(render(png, {"--slice", "axial", "--device", "no such device"}), {.note = "--device is not used"});
+    output(render(png, {"--slice", "axial", "--opacity", "40:0,80:1"}), {.note = "are not used"});
     output({"render", "--volume", "builtin:head:18", "--slice", "axial", "--title", "Head", "--size", "64x64",
             "--output", png},
-           {.note = "--title: it is written from 320x320 on"});
+           {.note = "--title is not used: pictures below 320x320"});
 }
 
 TEST_F(RenderSliceTest, WhatCannotBe) {
     const std::string png = path("a.png");
     EXPECT_THAT(refused(2, {"render", "--volume", "builtin:head:18", "--mesh-colour", "ff0000", "--output", png}),
-                HasSubstr("--mesh is missing"));
+                HasSubstr("add --mesh"));
     EXPECT_THAT(refused(2, render(png, {"--slice", "axial:500"})),
-                AllOf(HasSubstr("--slice axial:500 is outside of the volume"), HasSubstr("to"), HasSubstr("mm")));
-    EXPECT_THAT(refused(2, render(png, {"--slice", "view:-400"})), HasSubstr("outside of the volume"));
+                AllOf(HasSubstr("--slice axial:500 is outside the volume"), HasSubstr("to"), HasSubstr("mm")));
+    EXPECT_THAT(refused(2, render(png, {"--slice", "view:-400"})), HasSubstr("outside the volume"));
     EXPECT_THAT(refused(2, render(png, {"--slice", "oblique"})), HasSubstr("axial, coronal, sagittal or view"));
-    EXPECT_THAT(refused(2, render(png, {"--slice", "axial:top"})), HasSubstr("no number of millimetres"));
+    EXPECT_THAT(refused(2, render(png, {"--slice", "axial:top"})), HasSubstr("no number (mm)"));
     EXPECT_THAT(refused(2, render(png, {"--slice", "axial", "--view", "left"})), HasSubstr("leave out --view"));
     EXPECT_THAT(refused(2, render(png, {"--slice", "axial", "--clip", "left"})), HasSubstr("excludes"));
     EXPECT_THAT(refused(2, render(png, {"--window", "0:1"})), HasSubstr("--window requires --slice"));

@@ -117,7 +117,7 @@ TEST_F(RenderPictureTest, ClippingTakesASideAway) {
 TEST_F(RenderPictureTest, ClippingThatTakesNothingIsSaid) {
     const Ran ran = run(render(path("a.png"), {"--clip", "top:900"}));
     EXPECT_EQ(ran.status, 0);
-    EXPECT_THAT(ran.err, AllOf(HasSubstr("--clip top:900 takes nothing"), HasSubstr("mm")));
+    EXPECT_THAT(ran.err, AllOf(HasSubstr("--clip top:900 removes nothing"), HasSubstr("mm")));
 }
 
 /// A square before the face.
@@ -185,7 +185,7 @@ TEST_F(RenderPictureTest, PresetsAreDifferentPictures) {
 TEST_F(RenderPictureTest, HounsfieldPresetOfOtherUnitsIsSaid) {
     const Ran ran = run(render(path("a.png"), {"--preset", "ct-bone"}));
     EXPECT_EQ(ran.status, 0);
-    EXPECT_THAT(ran.err, HasSubstr("--preset ct-bone is in Hounsfield units"));
+    EXPECT_THAT(ran.err, HasSubstr("--preset ct-bone expects Hounsfield units"));
 }
 
 TEST_F(RenderPictureTest, LightingIsChosen) {
@@ -233,14 +233,15 @@ TEST_F(RenderCliTest, ArgumentsThatCannotBe) {
     const std::string png = path("a.png");
     EXPECT_THAT(refused(2, {"render", "--volume", "builtin:head:18"}), HasSubstr("--output"));
     EXPECT_THAT(refused(2, render(path("a.jpg"))), HasSubstr("a.jpg"));
-    EXPECT_THAT(refused(2, render(png, {"--volume", "builtin:ct:16"})), HasSubstr("one --volume"));
-    EXPECT_THAT(refused(2, render(png, {"--view", "inside"})), HasSubstr("'inside' is not known"));
-    EXPECT_THAT(refused(2, render(png, {"--preset", "pet"})), HasSubstr("'pet' is not known"));
+    EXPECT_THAT(refused(2, render(png, {"--volume", "builtin:ct:16"})),
+                HasSubstr("--volume: a picture needs exactly one"));
+    EXPECT_THAT(refused(2, render(png, {"--view", "inside"})), HasSubstr("'inside' is unknown"));
+    EXPECT_THAT(refused(2, render(png, {"--preset", "pet"})), HasSubstr("'pet' is unknown"));
     EXPECT_THAT(refused(2, render(png, {"--background", "blue"})), HasSubstr("RRGGBB"));
     EXPECT_THAT(refused(2, render(png, {"--mesh-colour", "00ff0g"})), HasSubstr("RRGGBB"));
     EXPECT_THAT(refused(2, render(png, {"--azimuth", "west"})), HasSubstr("--azimuth"));
     EXPECT_THAT(refused(2, render(png, {"--elevation", "1", "--view", "top"})), HasSubstr("--view"));
-    EXPECT_THAT(refused(2, render(png, {"--pose", "1"})), HasSubstr("--mesh is missing"));
+    EXPECT_THAT(refused(2, render(png, {"--pose", "1"})), HasSubstr("add --mesh"));
     EXPECT_THAT(refused(2, render(png, {"--mesh", "builtin:scalpel:500", "--pose", "1"})),
                 HasSubstr("numbered from 0 to 0"));
     EXPECT_THAT(refused(2, render(png, {"--mesh", "builtin:scalpel:500", "--pose", "3-1"})), HasSubstr("'3-1' is not"));
@@ -248,29 +249,29 @@ TEST_F(RenderCliTest, ArgumentsThatCannotBe) {
                                         "00ff00"})),
                 HasSubstr("--mesh-colour is given 2 times, --mesh 1 times"));
     EXPECT_THAT(refused(2, render(png, {"--clip", "inside"})), HasSubstr("'inside' is neither SIDE[:MM]"));
-    EXPECT_THAT(refused(2, render(png, {"--clip", "0,0,0,5"})), HasSubstr("a normal of zero"));
+    EXPECT_THAT(refused(2, render(png, {"--clip", "0,0,0,5"})), HasSubstr("a normal of length 0"));
     EXPECT_THAT(refused(2, render(png, {"--clip", "1,0,5"})), HasSubstr("neither"));
-    EXPECT_THAT(refused(2, render(png, {"--clip", "left:x"})), HasSubstr("no number of millimetres"));
+    EXPECT_THAT(refused(2, render(png, {"--clip", "left:x"})), HasSubstr("no number (mm)"));
     EXPECT_THAT(refused(2, render(png, {"--clip", "left:10", "--clip", "right:20"})),
-                HasSubstr("--clip left:10, --clip right:20: together they take all of the volume away"));
+                HasSubstr("--clip left:10, --clip right:20: together they remove the whole volume"));
     EXPECT_THAT(refused(2, render(png, {"--clip", "1,1,0,0", "--clip", "-1,1,0,-20", "--clip", "0,-1,0,5"})),
                 HasSubstr("together"));
     EXPECT_THAT(refused(2, render(png, {"--clip", "top:5", "--clip", "bottom:5"})), HasSubstr("together"));
     EXPECT_THAT(refused(2, render(png, {"--mesh", "builtin:scalpel:500", "--pose", "0", "--pose", "0"})),
                 HasSubstr("--pose is given twice"));
     EXPECT_THAT(refused(2, render(png, {"--clip", "left:-500"})),
-                AllOf(HasSubstr("--clip left:-500 takes all of the volume away"), HasSubstr("mm")));
+                AllOf(HasSubstr("--clip left:-500 removes the whole volume"), HasSubstr("mm")));
     Arguments seven;
     for (int i = 0; i < 7; ++i) {
         seven.insert(seven.end(), {"--clip", "left"});
     }
-    EXPECT_THAT(refused(2, render(png, seven)), HasSubstr("--clip is given 7 times, the most is 6"));
+    EXPECT_THAT(refused(2, render(png, seven)), HasSubstr("--clip is given 7 times; the maximum is 6"));
     EXPECT_THAT(refused(2, render(png, {"--clip-mesh"})), HasSubstr("--clip-mesh requires --clip"));
-    EXPECT_THAT(refused(2, render(png, {"--lighting", "dim"})), HasSubstr("'dim' is not known"));
+    EXPECT_THAT(refused(2, render(png, {"--lighting", "dim"})), HasSubstr("'dim' is unknown"));
     EXPECT_THAT(refused(2, render(png, {"--annotate", "--no-annotate"})), HasSubstr("excludes"));
     EXPECT_THAT(refused(2, render(png, {"--show", "contacts"})), HasSubstr("--show requires --mesh"));
     EXPECT_THAT(refused(2, render(png, {"--mesh", "builtin:scalpel:500", "--show", "all"})),
-                HasSubstr("'all' is not known"));
+                HasSubstr("'all' is unknown"));
     EXPECT_THAT(refused(2, render(png, {"--mesh", "builtin:scalpel:500", "--opacity-threshold", "0.2"})),
                 HasSubstr("--opacity-threshold requires --show"));
     EXPECT_THAT(refused(2, render(png, {"--mesh", "builtin:scalpel:500", "--through", "0.2"})),
@@ -278,7 +279,7 @@ TEST_F(RenderCliTest, ArgumentsThatCannotBe) {
     EXPECT_THAT(refused(2, render(png, {"--mesh", "builtin:scalpel:500", "--max-distance", "5"})),
                 HasSubstr("--max-distance requires --show"));
     EXPECT_THAT(refused(2, render(png, {"--mesh", "builtin:scalpel:500", "--show", "contacts", "--max-distance", "5"})),
-                HasSubstr("--max-distance is for --show distance"));
+                HasSubstr("--max-distance needs --show distance"));
     EXPECT_THAT(refused(2, render(png, {"--mesh", "builtin:scalpel:500", "--show", "distance", "--max-distance", "0"})),
                 HasSubstr("'0' is not a number above 0"));
     EXPECT_THAT(refused(2, render(png, {"--mesh", "builtin:scalpel:500", "--show", "triangles", "--through", "1.2"})),

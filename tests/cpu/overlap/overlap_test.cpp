@@ -158,6 +158,9 @@ TEST(Overlap, TakesWhateverSurfaceIsClosed) {
     }
     const MeshData ball = transformed(solidBall(5, 3), translation({9, 9, 9}));
     const MeshData inner = transformed(solidBall(3, 2), translation({9.1, 9, 9}));
+    const MeshData block = solidBox({2, 2, 2}, {18, 18, 6});
+    const MeshData prism =
+        transformed(solidPrism(40, 2, 4), translation({13, 8, 6})); // cuts a triangle into 40 corners
     struct Case {
         const char* name;
         MeshData mesh;
@@ -179,6 +182,7 @@ TEST(Overlap, TakesWhateverSurfaceIsClosed) {
         {"with its mirror image", joined(box, reversed(box)), 0, false},
         {"hollow", joined(ball, reversed(inner)), signedVolume(ball) - signedVolume(inner), false},
         {"in itself", joined(ball, inner), signedVolume(ball), false},
+        {"through a face", joined(block, prism), signedVolume(block) + signedVolume(prism) / 2, false},
     };
     for (const Case& one : cases) {
         SCOPED_TRACE(one.name);

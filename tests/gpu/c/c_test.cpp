@@ -156,7 +156,7 @@ TEST_F(CGpuTest, CountsWhatThePassesOfCertifiedDo) {
     EXPECT_EQ(counters.room, 4096U); // of 64 pairs, the fewest that it makes results for
     EXPECT_GT(counters.cells_decided, 0U);
     EXPECT_EQ(counters.lanes % 64, 0U);
-    EXPECT_EQ(counters.most_looks, counters.bricks_seen + counters.cells_seen);
+    EXPECT_EQ(counters.peak_tests, counters.bricks_seen + counters.cells_seen);
 }
 
 TEST_F(CGpuTest, ResultsHaveTheQueuesThatAreAskedFor) {

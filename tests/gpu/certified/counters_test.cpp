@@ -70,12 +70,12 @@ TEST_F(CountersTest, TheyAreTheWorkOfABatch) {
     EXPECT_EQ(c.left, 0U);
     EXPECT_EQ(c.bricksLeft + c.cellsLeft, 0U);
     // One round: its peaks are the totals.
-    EXPECT_EQ(c.mostClusters, c.clustersKept);
-    EXPECT_EQ(c.mostRuns, c.runsKept);
-    EXPECT_EQ(c.mostParts, c.largeParts);
-    EXPECT_EQ(c.mostCells, c.cellsListed);
-    EXPECT_EQ(c.mostOpen, c.cellsOpen);
-    EXPECT_EQ(c.mostLooks, c.bricksSeen + c.cellsSeen);
+    EXPECT_EQ(c.peakClusters, c.clustersKept);
+    EXPECT_EQ(c.peakRuns, c.runsKept);
+    EXPECT_EQ(c.peakParts, c.largeParts);
+    EXPECT_EQ(c.peakCells, c.cellsListed);
+    EXPECT_EQ(c.peakOpen, c.cellsOpen);
+    EXPECT_EQ(c.peakTests, c.bricksSeen + c.cellsSeen);
 }
 
 /// More rounds than there are headers, and queues that hold a few triangles' cells.
@@ -92,12 +92,12 @@ TEST_F(CountersTest, TotalsDoNotDependOnTheRounds) {
     EXPECT_EQ(c.cellsSeen, one.cellsSeen);
     EXPECT_EQ(c.cellsListed, one.cellsListed);
     EXPECT_EQ(c.cellsCertain, one.cellsCertain);
-    EXPECT_LE(c.mostClusters, 4U);
-    EXPECT_GE(c.mostClusters * std::uint64_t{c.rounds}, c.clustersKept);
+    EXPECT_LE(c.peakClusters, 4U);
+    EXPECT_GE(c.peakClusters * std::uint64_t{c.rounds}, c.clustersKept);
     EXPECT_LE(c.cellsDecided, c.cellsListed);
     // What had no room was examined again.
     EXPECT_EQ(c.left > 0, c.cellsLeft > 0);
-    EXPECT_EQ(c.mostCells > 16U * 32U || c.mostParts > 4U, c.left > 0);
+    EXPECT_EQ(c.peakCells > 16U * 32U || c.peakParts > 4U, c.left > 0);
 }
 
 /// Small triangles and large ones, in cells that are opaque all over: a decision is only made of these where outputs
@@ -130,7 +130,7 @@ TEST_F(CountersTest, OfABlockingDetectorAndOfNothing) {
     const CertifiedCounters twice = together(*answer.counters, *answer.counters);
     EXPECT_EQ(twice.clusters, 6U * scene.clusters);
     EXPECT_EQ(twice.rounds, 2 * answer.counters->rounds);
-    EXPECT_EQ(twice.mostCells, answer.counters->mostCells);
+    EXPECT_EQ(twice.peakCells, answer.counters->peakCells);
     const BatchAnswer nothing = take(blocking.detect({}));
     ASSERT_TRUE(nothing.counters);
     EXPECT_EQ(nothing.counters->rounds, 0U);
@@ -218,10 +218,10 @@ TEST_F(CountersTest, NoDispatchDoesMoreThanItsBound) {
         const CertifiedCounters& c = found.counters;
         EXPECT_EQ(c.clusters, kRoom);
         EXPECT_EQ(c.rounds, kRoom); // of all pairs in one, the large triangles might have more than the bound
-        EXPECT_LE(c.mostClusters, kRoom);
-        EXPECT_LE(c.mostRuns, 4 * kRoom);
-        EXPECT_LE(c.mostLooks, kMostLooks);
-        EXPECT_LE(c.mostLooksLeft, kMostLooks);
+        EXPECT_LE(c.peakClusters, kRoom);
+        EXPECT_LE(c.peakRuns, 4 * kRoom);
+        EXPECT_LE(c.peakTests, kMostLooks);
+        EXPECT_LE(c.peakTestsLeft, kMostLooks);
         EXPECT_GT(c.bricksSeen + c.cellsSeen, 0U);
     }
 }

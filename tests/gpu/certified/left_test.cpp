@@ -68,8 +68,8 @@ TEST_F(LeftTest, OfMoreEntriesThanALaneHasABlockOf) {
                            BatchItem{&mesh, &volume, &function, std::span(poses).first(kAgain)}};
     const Answered found = detect(kCount, {items, {}, 0.5}, kPairs + kAgain, 16384);
     EXPECT_EQ(found.counters.rounds, 2U);
-    EXPECT_GT(found.counters.mostLeft, 4096U);
-    EXPECT_GT(found.counters.left - found.counters.mostLeft, 2U * 64U); // blocks
+    EXPECT_GT(found.counters.peakLeft, 4096U);
+    EXPECT_GT(found.counters.left - found.counters.peakLeft, 2U * 64U); // blocks
     std::vector<PairAnswer> host = onHost(data, noise, table, poses, 0.5);
     host.insert(host.end(), host.begin(), host.begin() + kAgain);
     for (std::uint32_t i = 0; i < kPairs + kAgain; ++i) {

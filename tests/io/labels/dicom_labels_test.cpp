@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Segmentations (SEG) and structure sets (RTSTRUCT) of DICOM: pydicom and numpy are the judges.
-#include "../dicom_writer.h"
+#include "../dicom/dicom_writer.h"
 
 #include <cstdio>
 #include <sstream>

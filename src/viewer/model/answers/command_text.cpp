@@ -23,15 +23,14 @@ std::string sourceWord(const std::string& source) {
 /// Parts of the document that the command ignores.
 std::string commentsOf(const Document& document) {
     const std::size_t holes = document.edit.holes;
-    const std::string without = holes == 0   ? ""
-                                : holes == 1 ? "# of the volume as it was read, without the hole that was drilled\n"
-                                             : "# of the volume as it was read, without the " + std::to_string(holes) +
-                                                   " holes that were drilled\n";
+    const std::string without =
+        holes == 0   ? ""
+        : holes == 1 ? "# for the volume in the file, without the drilled hole\n"
+                     : "# for the volume in the file, without the " + std::to_string(holes) + " drilled holes\n";
     const std::uint32_t coarser = document.sources.coarser;
-    const std::string copy = coarser == 1
-                                 ? ""
-                                 : "# of the volume as it is in the file, not of its copy that is coarser by " +
-                                       std::to_string(coarser) + "\n";
+    const std::string copy = coarser == 1 ? ""
+                                          : "# for the volume in the file, not for its copy that is coarser by " +
+                                                std::to_string(coarser) + "\n";
     return copy + without;
 }
 

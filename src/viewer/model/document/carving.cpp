@@ -47,8 +47,8 @@ Result<Hole> holeOf(const VolumeView& volume, const Ball& ball, double value) {
     VOXTACT_TRY(box);
     if (voxelsOf(*box) > kMostHoleVoxels) {
         return Error{ErrorCode::LimitExceeded, 0,
-                     "the hole reaches over " + std::to_string(voxelsOf(*box)) + " voxels, and " +
-                         std::to_string(kMostHoleVoxels) + " are the most; drill with a smaller radius"};
+                     "the hole covers " + std::to_string(voxelsOf(*box)) + " voxels; " +
+                         std::to_string(kMostHoleVoxels) + " is the maximum; use a smaller radius"};
     }
     const std::size_t bytes = bytesPerVoxel(volume.type);
     Hole hole{*box, std::vector<std::byte>(voxelsOf(*box) * bytes), {}};

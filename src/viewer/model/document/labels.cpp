@@ -37,7 +37,7 @@ std::vector<LabelCount> touchedLabels(std::vector<LabelCount> counts) {
 std::string placeText(const VolumeView& volume, const Mat4& texture_from_world, const Labels* labels,
                       const Vec3& world) {
     const std::optional<double> value = valueAt(volume, texture_from_world, world);
-    char number[32] = "outside of the volume";
+    char number[32] = "outside the volume";
     if (value) {
         std::snprintf(number, sizeof number, "%g", *value);
     }

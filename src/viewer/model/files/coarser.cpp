@@ -96,7 +96,7 @@ bool fill(const VolumeData& from, VolumeData& to, const Sides& block, const std:
 
 Result<VolumeData> coarser(const VolumeData& volume, std::uint32_t factor, const std::function<bool(double)>& tell) {
     if (factor < 2) {
-        return refuse("a volume is made coarser by 2 or more");
+        return refuse("the factor must be 2 or more");
     }
     const Sides block = blockOf(volume.grid, factor);
     VolumeData out;

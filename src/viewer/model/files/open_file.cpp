@@ -100,7 +100,7 @@ Result<void> openFile(const std::filesystem::path& path, State& state) {
     const Result<FileKind> kind = kindOfFile(path);
     VOXTACT_TRY(kind);
     if (state.blank && *kind != FileKind::Session && *kind != FileKind::Volume) {
-        return refuse("'" + path.string() + "' needs a volume to be shown with; open a volume or a session first");
+        return refuse("'" + path.string() + "' needs a volume; open a volume or a session first");
     }
     if (*kind == FileKind::Function) {
         return openFunction(path, state);

@@ -23,7 +23,7 @@ Result<void> check(const std::filesystem::path& path, const State& state, const 
     VOXTACT_TRY(state.checkOutput(path));
     std::error_code ignored;
     if (std::filesystem::exists(path, ignored) && !(std::filesystem::is_regular_file(path, ignored) && isOne())) {
-        return refuse("'" + path.string() + "' is there already, and is no " + kind + "; choose another path");
+        return refuse("'" + path.string() + "' exists and is no " + kind + "; choose another path");
     }
     return {};
 }
@@ -47,7 +47,7 @@ Result<void> checkPose(const std::filesystem::path& path, const State& state) {
 
 Result<void> checkPicture(const std::filesystem::path& path, const State& state) {
     if (endingOf(path) != ".png") {
-        return refuse("cannot write '" + path.string() + "': the ending of a picture is .png");
+        return refuse("cannot write '" + path.string() + "': the ending must be .png");
     }
     return check(path, state, "picture", [&path] {
         constexpr std::string_view kPng = "\x89PNG\r\n";

@@ -64,7 +64,7 @@ void readSources(SessionReader& reader, Sources& sources) {
     sources.labels = reader.text("labels", "");
     sources.labelNames = reader.text("label_names", "");
     if (sources.labels.empty() && !sources.labelNames.empty()) {
-        reader.refuse("label_names", "names the labels of a label map, and labels is missing");
+        reader.refuse("label_names", "needs a label map, but labels is missing");
     }
     if (sources.volume.empty()) {
         reader.refuse("volume", "is missing");
@@ -111,7 +111,7 @@ void readFunction(SessionReader& reader, Document& document) {
         }
         const std::size_t count = document.edit.colours.size();
         if (count > 1 && !(document.edit.colours[count - 2].value <= value)) {
-            reader.refuse(at, "its value is below the one before");
+            reader.refuse(at, "its value is below the previous one");
         }
     });
     if (const Json* json = reader.find(name + ".domain"); json != nullptr) {
@@ -149,7 +149,7 @@ void readInstrument(SessionReader& reader, Document& document) {
     const double number = reader.number("instrument.pose_number", 0.0);
     const auto poses = static_cast<double>(document.poses.size());
     if (!(number >= 0 && number == std::floor(number) && (number < poses || number == 0))) {
-        reader.refuse("instrument.pose_number", "is not the number of one of instrument.poses");
+        reader.refuse("instrument.pose_number", "is not an index of instrument.poses");
         return;
     }
     document.pose = static_cast<std::size_t>(number);
@@ -200,7 +200,7 @@ void readInstruments(SessionReader& reader, Document& document) {
     const double chosen = reader.number("chosen", 0.0);
     if (!(chosen >= 0 && chosen == std::floor(chosen) &&
           chosen < static_cast<double>(document.edit.instruments.size()))) {
-        reader.refuse("chosen", "is not the number of one of meshes");
+        reader.refuse("chosen", "is not an index of meshes");
         return;
     }
     document.edit.chosen = static_cast<std::size_t>(chosen);
@@ -261,9 +261,9 @@ void readCamera(SessionReader& reader, Document& document) {
     camera.halfHeight = std::clamp(camera.halfHeight, kLeastHalfHeight, kMostHalfHeight);
     for (const double place : camera.target) {
         if (!(std::abs(place) <= kFarthest)) {
-            reader.refuse("camera.target", "is farther away than 1e12 mm");
+            reader.refuse("camera.target", "is beyond 1e12 mm");
         } else if (std::abs(place) > kFarthestInHeights * camera.halfHeight) {
-            reader.refuse("camera.target", "is farther away than 1e8 times camera.half_height");
+            reader.refuse("camera.target", "is beyond 1e8 times camera.half_height");
         }
     }
     document.camera = camera;
@@ -282,12 +282,12 @@ Result<Document> parseSession(std::string_view text, const std::string& name) {
         return wrong("it is not JSON");
     }
     if (twice.found()) {
-        return wrong("it says " + Json(*twice.found()).dump(-1, ' ', false, Json::error_handler_t::replace) + " twice");
+        return wrong("it has " + Json(*twice.found()).dump(-1, ' ', false, Json::error_handler_t::replace) + " twice");
     }
     SessionReader reader(json);
     const Json* mark = json.is_object() ? reader.find(kMark) : nullptr;
     if (mark == nullptr || !mark->is_number_integer()) {
-        return wrong(std::string("it has no number '") + kMark + "', by which a session is known");
+        return wrong(std::string("it has no number '") + kMark + "', which marks a session");
     }
     if (*mark != kVersion) {
         return wrong(std::string(kMark) + " is not " + std::to_string(kVersion) + ": another version wrote it");

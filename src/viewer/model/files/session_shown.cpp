@@ -20,7 +20,7 @@ std::size_t readWord(SessionReader& reader, const std::string& path, const std::
     const std::string word = reader.text(path, words.front());
     const auto* const found = std::ranges::find(words, word);
     if (found == words.end()) {
-        reader.refuse(path, "is none of the words that may stand there");
+        reader.refuse(path, "is not an allowed word");
         return 0;
     }
     return static_cast<std::size_t>(found - words.begin());
@@ -48,7 +48,7 @@ void readHoles(SessionReader& reader, Document& document) {
     reader.each("holes", [&](const std::string& at, const Json& json) {
         const auto [x, y, z, radius] = reader.numbers<4>(at, json);
         if (!(radius >= 0)) {
-            reader.refuse(at, "its last number is a radius, and below 0");
+            reader.refuse(at, "its last number, the radius, is below 0");
         }
         document.holes.push_back({{x, y, z}, radius});
     });
@@ -72,7 +72,7 @@ void readShown(SessionReader& reader, Document& document) {
     if (const Json* json = reader.find("shown.window"); json != nullptr) {
         const auto [lo, hi] = reader.numbers<2>("shown.window", *json);
         if (!(lo < hi)) {
-            reader.refuse("shown.window", "is not two numbers of which the second is the larger one");
+            reader.refuse("shown.window", "is not two ascending numbers");
         }
         shown.window = ValueRange{lo, hi};
     }

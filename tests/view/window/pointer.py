@@ -181,7 +181,7 @@ def save_picture(window, folder, name, width):
         state = window.state()
         if state["saving"] is not None:
             return state
-        assert "the ending of a picture is .png" in (state["error"] or ""), state
+        assert "the ending must be .png" in (state["error"] or ""), state
         window.hold(0.4, "Return")
     raise AssertionError(("no picture is being made", window.state()))
 
@@ -197,7 +197,7 @@ def cancel(program, folder):
             save_picture(window, folder, "large.png", 9000)
             window.tool("key", "Escape")
             state = window.until("the end of it", lambda s: s["saving"] is None)
-            assert "no picture is written" in state["status"] and files() == before, (state, files())
+            assert "no picture was written" in state["status"] and files() == before, (state, files())
             # Quitting waits for none.
             begun = time.monotonic()
             save_picture(window, folder, "large.png", 9000)

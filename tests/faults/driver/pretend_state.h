@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "ledger.h"
+#include "faults/ledger.h"
 #include "pretend_driver.h"
 #include "vulkan/device_functions.h"
 

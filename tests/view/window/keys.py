@@ -201,7 +201,7 @@ def drill(program, folder):
                 window.press("x")
                 state = window.until("a hole at the tip", lambda s: s["holes"] == 1 and s["settled"])
                 assert 0 < state["count"] < whole, (whole, state)
-                assert state["command"].startswith("# of the volume as it was read, without the hole"), state
+                assert state["command"].startswith("# for the volume in the file, without the drilled hole"), state
                 counts.append((whole, state["count"]))
                 window.press("shift+Next")
                 window.until("another pose", lambda s: s["pose"][HEIGHT] == 50)
@@ -231,7 +231,7 @@ def screenshot(program, folder):
                                                              poses(folder, 60)]) as window:
         state = window.until("the first answer", lambda s: s["settled"])
         window.dialog("ctrl+p", f"{folder}/window.png")
-        state = window.until("a picture", lambda s: s["status"].startswith("the picture is in"))
+        state = window.until("a picture", lambda s: s["status"].startswith("saved the picture as"))
         assert png_size(f"{folder}/window.png") == tuple(int(side) for side in state["picture"][2:]), state
         window.dialog("ctrl+p", f"{folder}/nowhere/large.png")
         window.until("the error", lambda s: "nowhere/large.png" in s["error"])

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // voxtact area.
-#include "cli_fixture.h"
+#include "cli/cli_fixture.h"
 
 #include <array>
 #include <cmath>

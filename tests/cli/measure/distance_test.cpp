@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // voxtact distance, and voxtact touch --margin.
-#include "cli_fixture.h"
+#include "cli/cli_fixture.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // voxtact overlap, and touch and distance with --solid.
-#include "cli_fixture.h"
+#include "cli/cli_fixture.h"
 
 #include <cmath>
 

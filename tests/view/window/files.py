@@ -125,7 +125,7 @@ def notes(program, folder):
     metres.write_text("v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0.05 0 0\nf 1 2 3\nf 1 2 4\n")
     pathlib.Path(folder, "curve.json").write_text('{"points": [[10, 0], [100, 1]]}')
     scene = ["--volume", "builtin:head:30", "--mesh", "builtin:scalpel:300", "--preset", "ct-lung", "--device", "cpu"]
-    preset, empty, size = "--preset ct-lung is in Hounsfield units", "none of its values, 0 to 255", "--mesh-scale 1000"
+    preset, empty, size = "--preset ct-lung expects Hounsfield units", "none of its values, 0 to 255", "--mesh-scale 1000"
 
     def said(*parts):
         return lambda s: len(s["notes"]) == len(parts) and all(part in note for part, note in zip(parts, s["notes"]))
@@ -191,7 +191,7 @@ def session(program, folder):
             window.until("the dialog going on", lambda s: s["field"] == f"{folder}/session.json")
             assert json.loads(pathlib.Path(folder, "session.json").read_text()) == saved
             window.enter()
-            window.until("the session that is replaced", lambda s: "the session is in" in s["status"])
+            window.until("the session that is replaced", lambda s: "saved the session as" in s["status"])
             replaced = json.loads(pathlib.Path(folder, "session.json").read_text())
             assert replaced != saved, replaced
             window.press("Prior")  # as it was, and again without a question
@@ -309,12 +309,12 @@ def refused(program, status, text, arguments, environment):
 
 def refusals(program, folder):
     without = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
-    refused(program, 1, "there is no display to open a window on", [*SCENE], without)
+    refused(program, 1, "no display for a window", [*SCENE], without)
     session = pathlib.Path(folder) / "session.json"
     session.write_text('{"voxtact_session": 1, "volume": "builtin:head:18", "mesh": "builtin:scalpel:300"}')
     refused(program, 1, "transfer_function: ", ["--session", str(session)], without)
     refused(program, 2, "--session", ["--session", str(session), "--opacity-threshold", "0.2"], without)
-    refused(program, 2, "--volume: the window shows one", ["--volume", "builtin:head", "--volume", "builtin:ct"],
+    refused(program, 2, "--volume: the window shows only one", ["--volume", "builtin:head", "--volume", "builtin:ct"],
             without)
     named = make(program, folder, "volume", "builtin:ct:16", "named.nii")
     session.write_text(json.dumps({"voxtact_session": 1, "volume": "named.nii", "mesh": "builtin:scalpel:300",
@@ -328,7 +328,7 @@ def refusals(program, folder):
     refused(program, 2, "a window has 640x480 to", [*SCENE, "--size", "640x470"], without)
     refused(program, 2, "--method query", ["--method", "query", "--projection", "certified"], without)
     refused(program, 1, "nowhere.nii", ["--labels", "nowhere.nii"], without)
-    refused(program, 2, "--labels is not given", ["--label-names", "nowhere.txt"], without)
+    refused(program, 2, "--label-names: it needs a label map", ["--label-names", "nowhere.txt"], without)
     refused(program, 1, "nowhere.nii", ["--volume", "nowhere.nii"], without)
     session.write_text('{"voxtact_session": 1, "volume": "nowhere.nii", "mesh": "builtin:scalpel:300", '
                        '"transfer_function": {"points": [[0, 0], [1, 1]]}}')

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "vulkan/memory.h"
+#include "vulkan/memory/memory.h"
 
 #include "core/base/try.h"
 #include "vulkan/debug.h"
