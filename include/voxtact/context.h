@@ -118,7 +118,7 @@ struct QueueAccess {
 /// share it, so creating a second Detector of a kind is fast.
 ///
 /// Lifetime: objects created with a Context may outlive it, but not the device.
-/// Thread-safety: const functions, and the creation of objects, are safe from any thread.
+/// Thread-safety: const functions may be called, and objects created, from any thread.
 class Context {
   public:
     /// Creates a context. Fails with one line that names everything missing.

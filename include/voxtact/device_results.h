@@ -65,7 +65,7 @@ struct CertifiedCounters {
     VOXTACT_TOTAL cellsSeen;    ///< tested cells of all triangles, in bricks that may be opaque
     VOXTACT_TOTAL cellsListed;  ///< of cellsSeen: cells that need a decision
     VOXTACT_TOTAL cellsCertain; ///< of cellsSeen: opaque, with a triangle clearly inside; counted without a decision
-    VOXTACT_TOTAL cellsDecided; ///< cells that a lane decided; others: the pair already touches, or no room
+    VOXTACT_TOTAL cellsDecided; ///< of cellsListed: decided by a lane; others: the pair already touches, or no room
     VOXTACT_TOTAL lanes;        ///< lanes dispatched for these cells
     VOXTACT_TOTAL cellsOpen;    ///< of cellsDecided: cells that single precision left undecided
     VOXTACT_TOTAL left;         ///< shares of work groups for which a queue had no room

@@ -61,7 +61,7 @@ template <class T> class [[nodiscard]] Result {
     /// Returns ok().
     explicit operator bool() const noexcept { return ok(); }
 
-    /// Returns the value of a result that is ok(); moved out of a temporary.
+    /// Returns the value; requires ok(). Moves the value out of a temporary result.
     /// @{
     [[nodiscard]] T& value() & noexcept { return *std::get_if<0>(&content_); }
     [[nodiscard]] const T& value() const& noexcept { return *std::get_if<0>(&content_); }

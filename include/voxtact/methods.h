@@ -58,7 +58,7 @@ enum class Boundary : std::uint32_t {
 /// Meaning of a count.
 enum class Exactness : std::uint32_t {
     Exact = 0,
-    LowerBound = 1, ///< a lower bound: a boolean query, an early exit, or undecided fragments
+    LowerBound = 1, ///< after a boolean query or an early exit, or with undecided fragments
     Refused = 2,    ///< nothing was counted: the pose on the device is not finite or not affine
 };
 

@@ -54,7 +54,7 @@ struct MotionTouch {
     std::uint32_t triangle = 0; ///< index of the triangle in the mesh
 };
 
-/// Why a search of a segment ended.
+/// Reason that the search of a segment stopped.
 enum class MotionEnd : std::uint32_t {
     Decided, ///< the segment is free, or it touches within the resolution after its collision-free part
     Grazes,  ///< undecided: at some *t* the distance is within the resolution, and neither answer is proven

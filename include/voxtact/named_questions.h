@@ -92,7 +92,7 @@ struct TableLayout {
 struct NamedQuestion {
     std::string_view name;               ///< "distance"
     std::string_view text;               ///< one line: "how near is it?"
-    std::string_view help{};             ///< columns and examples, the end of `voxtact NAME --help`
+    std::string_view help{};             ///< columns and examples, printed at the end of --help
     std::span<const TableLayout> tables; ///< of its answers, without "totals"
     bool measures = false;               ///< its pairs have bounds, columns "lower" and "upper"
     bool isLeastWorst = false;           ///< the worst pair has the smallest bounds, not the largest

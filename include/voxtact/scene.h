@@ -232,7 +232,7 @@ struct MeshOptions {
 /// A triangle mesh on the device.
 class Mesh {
   public:
-    /// Refuses what checkMesh() refuses, and a stride that MeshOptions excludes.
+    /// Creates a mesh. Refuses meshes that checkMesh() refuses, and strides that MeshOptions excludes.
     [[nodiscard]] VOXTACT_API static Result<Mesh> create(const Context& context, const MeshView& data,
                                                          const MeshOptions& options = {});
     /// Uses the caller's buffers. Vertices must be finite and indices in range; the contents are not checked. Refuses
@@ -253,7 +253,7 @@ class Mesh {
     /// Frees the staging buffer. The submission of cmdUpload() must be complete.
     VOXTACT_API void releaseStaging() noexcept;
 
-    /// Deformations need MeshOptions::editable, move vertices and keep the triangles. Answers equal those of a new
+    /// Deforms the mesh: moves vertices and keeps the triangles. Requires MeshOptions::editable. Answers equal those of a new
     /// mesh, bit for bit. Triangles stay in their clusters, and the device refits the clusters' boxes. If neighbours
     /// move far apart, a new mesh is faster to query. The split of batches into dispatches also changes at recording.
     ///   call it             outside a render pass, on any queue with graphics, compute or transfer; with clusters, on

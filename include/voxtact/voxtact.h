@@ -463,8 +463,8 @@ typedef struct vxt_pairs {
 
 // ======== Questions ========
 
-/// A setting of a question: its name and one value. vxt_fact_get() returns the kind of the value. A choice sets `text`,
-/// a list `numbers` or `labels`; the other two are null. A number, whole number or flag leaves all three null.
+/// A setting of a question: its name and one value, of the kind that vxt_fact_get() returns. A choice sets only `text`;
+/// a list sets only `numbers` or `labels`; numbers and flags set none of these. Unset pointers are null.
 typedef struct vxt_setting {
     const char* name;      ///< "tolerance"
     double number;         ///< value of a number or whole number; of a flag: 0 or 1
@@ -715,7 +715,7 @@ typedef struct vxt_points vxt_points;
 /// @}
 /// Reads poses: voxtact::io::readPoses(). `format`: "matrix", "t-xyzw", "t-wxyz", "xyzw-t" or "wxyz-t"; null: "matrix".
 VXT_CHECKED vxt_result vxt_read_poses(const char* path, const char* format, vxt_poses** poses);
-/// Returns 16 doubles per pose, as items take them. `count`: poses.
+/// Returns 16 doubles per pose, in the layout of vxt_host_item::world_from_object. `count`: poses.
 VXT_API const double* vxt_poses_get(const vxt_poses* poses, size_t* count);
 VXT_API void vxt_poses_destroy(vxt_poses* poses);
 /// Reads a transfer function: voxtact::io::readTransferFunction().

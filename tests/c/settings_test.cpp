@@ -160,7 +160,8 @@ TEST_F(CRefusals, OfNumbersOutsideTheirRanges) {
     EXPECT_THAT(refused("count", {{"samples_per_voxel", 0}}), HasSubstr("samples"));
     EXPECT_THAT(refused("motion", {{"touch_resolution", 0}}), HasSubstr("resolution"));
     for (const char* const question : {"touch", "distance", "area", "overlap", "motion"}) {
-        EXPECT_THAT(refused(question, {{"max_steps", 0}}), HasSubstr("the max steps 0 is not a whole number from 1 on"));
+        EXPECT_THAT(refused(question, {{"max_steps", 0}}),
+                    HasSubstr("the max steps 0 is not a whole number from 1 on"));
     }
     vxt_pairs pairs = c_.pairs;
     pairs.opacity_threshold = 2;

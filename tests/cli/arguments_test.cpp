@@ -114,9 +114,9 @@ TEST_F(ArgumentsTest, WhatIsRequired) {
 }
 
 TEST_F(ArgumentsTest, NamesNobodyKnows) {
-    EXPECT_THAT(badDetect({"--method", "fingers"}),
-                AllOf(HasSubstr("'fingers' is unknown"),
-                      HasSubstr("query, query-any, atomic, subgroup, compute, cpu, auto")));
+    EXPECT_THAT(
+        badDetect({"--method", "fingers"}),
+        AllOf(HasSubstr("'fingers' is unknown"), HasSubstr("query, query-any, atomic, subgroup, compute, cpu, auto")));
     EXPECT_THAT(badDetect({"--projection", "sideways"}),
                 AllOf(HasSubstr("'sideways' is unknown"), HasSubstr("view, two-view, dominant-axis, certified")));
     EXPECT_THAT(badDetect({"--filter", "nearest"}), AllOf(HasSubstr("nearest"), HasSubstr("hardware, exact")));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The machine itself: code with a known mistake in it must be complained of.
-#include "embedder.h"
 #include "driver/pretend_driver.h"
+#include "embedder.h"
 #include "sweep.h"
 
 #include <gmock/gmock.h>

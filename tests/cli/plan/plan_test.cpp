@@ -184,8 +184,7 @@ TEST_F(PlanTest, RefusesWhatItCannotUse) {
     EXPECT_THAT(avoiding({"--target", "0,0,0", "--margin", "-1"}), HasSubstr("--margin"));
     EXPECT_THAT(avoiding({"--target", "0,0,0", "--surface", "a.stl"}), HasSubstr("must be .ply"));
     EXPECT_THAT(avoiding({"--target", "0,0,0", "--report", "a.pdf"}), HasSubstr("must be .html"));
-    EXPECT_THAT(avoiding({"--target", "0,0,0", "--progress", "always"}),
-                HasSubstr("--progress: 'always' is unknown"));
+    EXPECT_THAT(avoiding({"--target", "0,0,0", "--progress", "always"}), HasSubstr("--progress: 'always' is unknown"));
     EXPECT_THAT(avoiding({"--target", "0,0,0", "--opacity-threshold", "1", "--opacity", "0:0,1:0"}),
                 HasSubstr("meets the surface of entries"));
     EXPECT_THAT(avoiding({"--target", "0,0,0", "--max-length", "1"}), HasSubstr("too long"));
