@@ -89,6 +89,7 @@ MISTAKES = [
     ("overlap", "label-at-another-place", r"double middle = box\.cell(.*) \+ 0\.5;",
      "double middle = box.cell[static_cast<std::size_t>(axis)] + 0.625;"),
     ("overlap", "bend-forgotten", r"change \* change \* std::abs\(along\.b\)", "0 * change"),
+    ("overlap", "halves-uncut", r"\(isCut \? parts_ : left\)", "parts_"),
     ("overlap", "holes-allowed", r"made\.solid->facts\.holes > 0", "made.solid->facts.holes > 9"),
     ("files", "stopped-for-once", r"std::exchange\(stopped_, true\)", "stopped_"),
     ("render", "normals-by-the-matrix", r"transposed\(\*object_from_world\)", "*object_from_world"),

@@ -80,7 +80,7 @@ TEST(EngineJudgeTest, CertifiedEnginesMustAgree) {
         .mesh = "m", .poses = "onset", .engine = {.name = "compute", .question = "count", .certified = true}};
     EXPECT_EQ(judgeEngine(certified, certified, counting), "");
     EXPECT_EQ(judgeEngine(certified, std::vector<PairAnswer>{answer(true, false, 2), answer(false, true, 0)}, counting),
-              "m, poses onset, pose 0: compute count says 2, it must be 3");
+              "m, poses onset, pose 0: compute count says 2; expected: 3");
     BenchRow yesNo{.mesh = "m", .poses = "onset", .engine = {.name = "cpu", .question = "yes/no", .certified = true}};
     EXPECT_EQ(judgeEngine(certified, std::vector<PairAnswer>{answer(true, false, 1), answer(false, true, 0)}, yesNo),
               "");

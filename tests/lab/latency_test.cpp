@@ -42,13 +42,13 @@ TEST(TickJudgeTest, CertifiedAnswersAreTheHosts) {
     EXPECT_EQ(judgePose(facts("compute", "count", true), answer(3, CountingMethod::Compute), must), "");
     EXPECT_EQ(judgePose(facts("compute", "yes/no", true), answer(1, CountingMethod::Compute), must), "");
     EXPECT_EQ(judgePose(facts("compute", "count", true), answer(2, CountingMethod::Compute), must),
-              "compute certified count says 2, it must be 3");
+              "compute certified count says 2; expected: 3");
     EXPECT_EQ(judgePose(facts("compute", "yes/no", true), answer(3, CountingMethod::Compute), must),
-              "compute certified yes/no says 3, it must be 1");
+              "compute certified yes/no says 3; expected: 1");
     PoseTruth perhaps = truth(0, 0, true);
     EXPECT_EQ(judgePose(facts("cpu", "yes/no", true), answer(0, CountingMethod::Cpu, true), perhaps), "");
     EXPECT_EQ(judgePose(facts("cpu", "yes/no", true), answer(0, CountingMethod::Cpu), perhaps),
-              "cpu certified yes/no says 0, it must be possible");
+              "cpu certified yes/no says 0; expected: possible");
 }
 
 TEST(TickJudgeTest, ACountThatIsALowerBoundIsComparedAllTheSame) {
@@ -65,13 +65,13 @@ TEST(TickJudgeTest, TheRasteriserAgreesWithItselfAndComputeWithTheHost) {
     EXPECT_EQ(judgePose(facts("query", "count", false), answer(101, CountingMethod::Query), must), "") << "rounding";
     EXPECT_EQ(judgePose(facts("atomic", "count", false), answer(101, CountingMethod::Atomic), must), "");
     EXPECT_EQ(judgePose(facts("atomic", "count", false), answer(100, CountingMethod::Atomic), must),
-              "atomic view count says 100, it must be 101");
+              "atomic view count says 100; expected: 101");
     EXPECT_EQ(judgePose(facts("query-any", "count", false), answer(1, CountingMethod::QueryAny), must), "");
     EXPECT_EQ(judgePose(facts("query-any", "count", false), answer(0, CountingMethod::QueryAny), must),
               "query-any view count says no hit where cpu counts 100: more than the rounding of a rasteriser explains");
     EXPECT_EQ(judgePose(facts("compute", "count", false), answer(100, CountingMethod::Compute), must), "");
     EXPECT_EQ(judgePose(facts("compute", "count", false), answer(101, CountingMethod::Compute), must),
-              "compute view count says 101, it must be 100");
+              "compute view count says 101; expected: 100");
 }
 
 TEST(TickJudgeTest, ARasteriserThatIsWrongAltogetherIsNoRounding) {
@@ -176,7 +176,7 @@ TEST(LatencyOutputTest, SentencesSayOfHowManyTicksTheyAre) {
     EXPECT_THAT(out.str(), HasSubstr("cpu on 1 thread: p50 5.00 us, p99 5.00 us (500 ticks, 258 of them touch); "
                                      "compute, polled, recorded once: p50 5.00 us (10 ticks, 0 of them touch)"));
     EXPECT_THAT(out.str(), HasSubstr("these rows have only poses without contact"));
-    EXPECT_THAT(out.str(), HasSubstr("all no: compute, polled, recorded once (certified count)\""));
+    EXPECT_THAT(out.str(), HasSubstr("all answers are no: compute, polled, recorded once (certified count)\""));
     result.rows[1].touching = 3;
     std::ostringstream other;
     writeBench(other, io::Format::Json, {.mode = BenchMode::Latency, .number = 500}, result);

@@ -305,5 +305,5 @@ def test_poses_are_translations_and_quaternions(tmp_path):
                                       [[[0, 0, 1, 7], [1, 0, 0, 8], [0, 1, 0, 9], [0, 0, 0, 1]]])
     with pytest.raises(vx.FormatError, match="16"):
         vx.read_poses(tmp_path / "poses.txt")
-    with pytest.raises(vx.InvalidArgumentError, match="'quaternion' is not known; there are: matrix, t-xyzw"):
+    with pytest.raises(vx.InvalidArgumentError, match="'quaternion' is unknown; choose from: matrix, t-xyzw"):
         vx.read_poses(tmp_path / "poses.txt", "quaternion")

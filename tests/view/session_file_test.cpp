@@ -134,8 +134,8 @@ TEST(ViewSession, WhatIsWrongWithAMeshIsNamed) {
     EXPECT_THAT(refused("/meshes/2/pose", Json(), several()), HasSubstr("meshes[2]: pose: is missing"));
     EXPECT_THAT(refused("/meshes/2/pose/12", 1, several()), HasSubstr("meshes[2]: pose: "));
     EXPECT_THAT(refused("/meshes/0/shown", 1, several()), HasSubstr("meshes[0]: shown: "));
-    EXPECT_THAT(refused("/chosen", 3, several()), HasSubstr("chosen: is not the number"));
-    EXPECT_THAT(refused("/chosen", 0.5, several()), HasSubstr("chosen: is not the number"));
+    EXPECT_THAT(refused("/chosen", 3, several()), HasSubstr("chosen: is not an index"));
+    EXPECT_THAT(refused("/chosen", 0.5, several()), HasSubstr("chosen: is not an index"));
 }
 
 TEST(ViewSession, ComesBackFromAFile) {
@@ -278,7 +278,7 @@ TEST(ViewSession, AMemberThatIsThereTwiceIsRefused) {
     text.insert(text.rfind('}'), ", \"volume\": \"other.nii\"");
     const Result<Document> parsed = parseSession(text, "s.json");
     ASSERT_FALSE(parsed.ok());
-    EXPECT_THAT(parsed.error().text, HasSubstr("'s.json': it says \"volume\" twice"));
+    EXPECT_THAT(parsed.error().text, HasSubstr("'s.json': it has \"volume\" twice"));
 }
 
 TEST(ViewSession, PathsThatAreNoUtf8DoNoHarm) {

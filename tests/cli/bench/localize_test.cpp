@@ -76,7 +76,7 @@ TEST_F(LocalizeCommandTest, AShareOfNothingIsNone) {
 TEST_F(LocalizeCommandTest, WhatHasNothingToDoWithItIsRefused) {
     EXPECT_THAT(refused(2, localize({"--sweep", "batch"})), AllOf(HasSubstr("--localize"), HasSubstr("--sweep")));
     EXPECT_THAT(refused(2, localize({"--report", path("report.html")})), HasSubstr("--report"));
-    EXPECT_THAT(refused(2, localize({"--only-pose", "8"})), HasSubstr("there is no pose 8, the last is 7"));
+    EXPECT_THAT(refused(2, localize({"--only-pose", "8"})), HasSubstr("there is no pose 8; the last is 7"));
     EXPECT_THAT(refused(2, localize({"--mesh", "builtin:ellipsoid"})), HasSubstr("--volume, --mesh: give each once"));
     EXPECT_THAT(refused(1, localize({"--output", path("none/out.csv")})), HasSubstr("does not exist"));
 }

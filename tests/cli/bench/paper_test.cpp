@@ -241,7 +241,7 @@ TEST_F(PaperTest, FilesStandForTheBuiltins) {
 TEST_F(PaperTest, FilesOfAnotherSizeAreRefused) {
     std::filesystem::create_directories(path("data/volumes"));
     EXPECT_THAT(refused(1, {"bench", "--paper", "--data", path("data")}),
-                AllOf(HasSubstr("none of volumes/mrhead_256.nii.gz"), HasSubstr("is there")));
+                AllOf(HasSubstr("none of volumes/mrhead_256.nii.gz"), HasSubstr("exists")));
     output({"make", "volume", "builtin:head:32", path("data/volumes/mrhead_256.nii.gz")});
     EXPECT_THAT(refused(1, {"bench", "--paper", "--data", path("data")}),
                 AllOf(HasSubstr("32x32x32 voxels of uint8"), HasSubstr("need 256x256x256")));

@@ -166,7 +166,7 @@ TEST_F(RenderSliceTest, WhatCannotBe) {
     EXPECT_THAT(refused(2, render(png, {"--slice", "axial", "--window", "3:1"})), HasSubstr("LO below HI"));
     EXPECT_THAT(refused(2, {"render", "--volume", "builtin:head:18", "--slice", "axial", "--size", "100000x10",
                             "--output", png}),
-                HasSubstr("beyond"));
+                HasSubstr("exceeds the limit"));
     EXPECT_EQ(filesInFolder(), 0U);
 }
 

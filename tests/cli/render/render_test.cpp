@@ -244,7 +244,8 @@ TEST_F(RenderCliTest, ArgumentsThatCannotBe) {
     EXPECT_THAT(refused(2, render(png, {"--pose", "1"})), HasSubstr("add --mesh"));
     EXPECT_THAT(refused(2, render(png, {"--mesh", "builtin:scalpel:500", "--pose", "1"})),
                 HasSubstr("numbered from 0 to 0"));
-    EXPECT_THAT(refused(2, render(png, {"--mesh", "builtin:scalpel:500", "--pose", "3-1"})), HasSubstr("'3-1' is not"));
+    EXPECT_THAT(refused(2, render(png, {"--mesh", "builtin:scalpel:500", "--pose", "3-1"})),
+                HasSubstr("'3-1' is neither"));
     EXPECT_THAT(refused(2, render(png, {"--mesh", "builtin:scalpel:500", "--mesh-colour", "ff0000", "--mesh-colour",
                                         "00ff00"})),
                 HasSubstr("--mesh-colour is given 2 times, --mesh 1 times"));

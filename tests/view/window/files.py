@@ -325,7 +325,7 @@ def refusals(program, folder):
                 ["--session", str(session), "--report-state", str(output)], without)
         assert pathlib.Path(output).read_bytes() == before, output
     refused(program, 2, "'-' is not a file", [*SCENE, "--report-state", "-"], without)
-    refused(program, 2, "a window has 640x480 to", [*SCENE, "--size", "640x470"], without)
+    refused(program, 2, "a window needs 640x480 to", [*SCENE, "--size", "640x470"], without)
     refused(program, 2, "--method query", ["--method", "query", "--projection", "certified"], without)
     refused(program, 1, "nowhere.nii", ["--labels", "nowhere.nii"], without)
     refused(program, 2, "--label-names: it needs a label map", ["--label-names", "nowhere.txt"], without)
