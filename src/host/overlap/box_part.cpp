@@ -139,7 +139,8 @@ struct Corner {
 };
 
 /// A corner with the linear values there and on the plane behind it.
-struct ValueCorner : Corner {
+struct ValueCorner {
+    Corner at;
     double near;
     double far;
 };
@@ -168,7 +169,7 @@ class Fan {
 
 double volumeBehind(const ValueCorner* corners, std::uint32_t count) noexcept {
     Fan fan;
-    std::for_each_n(corners, count, [&](const Corner& corner) { fan.add(corner); });
+    std::for_each_n(corners, count, [&](const ValueCorner& corner) { fan.add(corner.at); });
     return fan.volume();
 }
 
@@ -197,15 +198,15 @@ double volumeFrom(const ValueCorner* corners, std::uint32_t count, double slope,
         const double greatestA = std::max(greatest(a), leastA);
         const double greatestB = std::max(greatest(b), leastB);
         if (leastA >= 0) {
-            all.add(a);
+            all.add(a.at);
         }
         if (leastA < 0 && greatestA >= 0) {
-            addPart(a, greatestA);
+            addPart(a.at, greatestA);
         }
         const bool cutsLeast = (leastA >= 0) != (leastB >= 0);
         const bool cutsGreatest = (greatestA >= 0) != (greatestB >= 0);
         const auto cutLeast = [&] {
-            const Corner at = between(a, b, leastA, leastB);
+            const Corner at = between(a.at, b.at, leastA, leastB);
             all.add(at);
             part.add(at); // at its whole depth
         };
@@ -213,7 +214,7 @@ double volumeFrom(const ValueCorner* corners, std::uint32_t count, double slope,
             cutLeast();
         }
         if (cutsGreatest) {
-            addPart(between(a, b, greatestA, greatestB), 0);
+            addPart(between(a.at, b.at, greatestA, greatestB), 0);
         }
         if (cutsLeast && leastA < 0) {
             cutLeast();
