@@ -34,24 +34,24 @@ enum class Printed : std::uint32_t {
 
 /// A column of a table: where it is in a row. The texts have static lifetime.
 struct Column {
-    const char* name;    ///< "lower"
-    const char* unit;    ///< "mm"; "" for none
-    const char* text;    ///< one line: meaning
-    const char* choices; ///< names of 0, 1, 2 ...: "no,yes,undecided"; else ""
-    ColumnType type;     ///< type of each element
-    std::uint32_t elements;
-    std::size_t offset; ///< bytes from the start of a row
-    Printed printed;
+    const char* name;       ///< "lower"
+    const char* unit;       ///< "mm"; "" for none
+    const char* text;       ///< one line: meaning
+    const char* choices;    ///< names of 0, 1, 2 ...: "no,yes,undecided"; else ""
+    ColumnType type;        ///< type of each element
+    std::uint32_t elements; ///< per row: 1, 3 for a point, 16 for a pose
+    std::size_t offset;     ///< bytes from the start of a row
+    Printed printed;        ///< how programs print it
 };
 
 /// A table of an answer: rows of one struct, in memory that all copies share.
 struct AnswerTable {
-    const char* name = ""; ///< "pairs", "labels"
-    std::span<const Column> columns;
+    const char* name = "";              ///< "pairs", "labels"
+    std::span<const Column> columns;    ///< of each row
     std::shared_ptr<const void> memory; ///< keeps `data`
     const std::byte* data = nullptr;    ///< the first row
-    std::size_t rows = 0;
-    std::size_t stride = 0; ///< bytes from row to row
+    std::size_t rows = 0;               ///< number of rows
+    std::size_t stride = 0;             ///< bytes from row to row
 
     /// Returns a column by name; null if the table has none.
     [[nodiscard]] VOXTACT_API const Column* column(std::string_view wanted) const noexcept;
@@ -66,7 +66,7 @@ struct AnswerTable {
 /// An answer: a table with one row per pair in order ("pairs"; of motion "segments", of plan "paths"), further tables,
 /// and "totals" with one row.
 struct AnswerTables {
-    std::vector<AnswerTable> tables;
+    std::vector<AnswerTable> tables;             ///< each with a name of its own
     std::optional<CertifiedCounters> counters{}; ///< of a device, if they were requested
 
     /// Returns a table by name; null if the answer has none.
@@ -79,13 +79,13 @@ using SettingValue = std::variant<double, std::string_view, std::span<const doub
 /// A setting of a question. Names and lists need to live during the call only.
 struct Setting {
     std::string_view name; ///< name of its fact
-    SettingValue value{};
+    SettingValue value{};  ///< of the kind of its fact
 };
 
 /// A table that the answer to a question has.
 struct TableLayout {
-    const char* name = ""; ///< "pairs"
-    std::span<const Column> columns;
+    const char* name = "";           ///< "pairs"
+    std::span<const Column> columns; ///< of each row
 };
 
 /// A question by its name. The texts have static lifetime.
