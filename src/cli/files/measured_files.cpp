@@ -30,7 +30,7 @@ std::string joined(const Measured& row, const char* column, char between) {
 /// Steps per unit in files; more digits have no meaning.
 double partsOf(const PairOptions& options) {
     const double tolerance = options.measure.settings.number("tolerance");
-    return std::max(kPrintedParts, std::pow(10, std::ceil(2 - std::log10(tolerance))));
+    return tolerance > 0 ? std::max(kPrintedParts, std::pow(10, std::ceil(2 - std::log10(tolerance)))) : kPrintedParts;
 }
 
 /// The label at the witness point in the volume.
