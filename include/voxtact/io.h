@@ -243,8 +243,9 @@ struct NamedPoint {
 /// row. Return false to cancel: the writing function returns Cancelled. Must not throw. May be empty.
 using WriteProgress = std::function<bool(std::uint32_t done, std::uint32_t rows)>;
 
-/// Writes a PNG file of 8 bits per channel: red, green, blue and alpha of each pixel, the uppermost row first. Writes a temporary file and renames it at the end, so cancelling leaves an existing file unchanged. Refuses an empty picture, a wrong
-/// number of bytes, an ending other than .png, and more than 2^30 bytes.
+/// Writes a PNG file of 8 bits per channel: red, green, blue and alpha of each pixel, the uppermost row first. Writes a
+/// temporary file and renames it at the end, so cancelling leaves an existing file unchanged. Refuses an empty picture,
+/// a wrong number of bytes, an ending other than .png, and more than 2^30 bytes.
 VOXTACT_API Result<void> writePng(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height,
                                   std::span<const std::uint8_t> rgba, const WriteProgress& progress = {});
 /// Like writePng(path), to a stream, whose state the caller checks, also after Cancelled.

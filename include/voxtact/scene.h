@@ -253,9 +253,10 @@ class Mesh {
     /// Frees the staging buffer. The submission of cmdUpload() must be complete.
     VOXTACT_API void releaseStaging() noexcept;
 
-    /// Deforms the mesh: moves vertices and keeps the triangles. Requires MeshOptions::editable. Answers equal those of a new
-    /// mesh, bit for bit. Triangles stay in their clusters, and the device refits the clusters' boxes. If neighbours
-    /// move far apart, a new mesh is faster to query. The split of batches into dispatches also changes at recording.
+    /// Deforms the mesh: moves vertices and keeps the triangles. Requires MeshOptions::editable. Answers equal those of
+    /// a new mesh, bit for bit. Triangles stay in their clusters, and the device refits the clusters' boxes. If
+    /// neighbours move far apart, a new mesh is faster to query. The split of batches into dispatches also changes at
+    /// recording.
     ///   call it             outside a render pass, on any queue with graphics, compute or transfer; with clusters, on
     ///                       one with compute
     ///   expects             an uploaded mesh; waits for earlier commands that use the mesh
