@@ -12,8 +12,8 @@
 #include <variant>
 #include <vector>
 
-/// Questions by name, with settings by name and answers as tables: for bindings, and programs that treat all questions
-/// alike. Names, kinds, ranges and defaults of the settings: the table of facts (docs/c.md, vxt_fact_get()).
+/// Questions by name, with settings by name and answers as tables, for bindings and programs that treat all questions
+/// alike. The structs of the questions describe the settings; vxt_fact_get() lists their kinds, ranges and defaults.
 namespace voxtact {
 
 /// Type of a column's elements.
@@ -24,7 +24,7 @@ enum class ColumnType : std::uint32_t {
     Double, ///< in Column::unit
 };
 
-/// How a program prints a column of the main table.
+/// How the program prints a column of a question that measures.
 enum class Printed : std::uint32_t {
     No,    ///< not at all
     Plain, ///< as it is; an infinite number is left empty
@@ -104,12 +104,10 @@ struct NamedQuestion {
 
 /// Returns all questions about pairs, in the order of the program's help.
 [[nodiscard]] VOXTACT_API std::span<const NamedQuestion> namedQuestions() noexcept;
-/// Returns a question by name; null if there is none.
-[[nodiscard]] VOXTACT_API const NamedQuestion* questionNamed(std::string_view name) noexcept;
 
 /// Answers a question for every pair of the batch, like HostEngine::ask() of that question. Settings that are not given
-/// have their defaults. Refuses an unknown question, an unknown setting, one that is given twice, and a value of
-/// another kind.
+/// have their defaults. Refuses an unknown question, an unknown setting, a setting that is given twice, and a value of
+/// another kind or outside its range. Thread-safety: one call of an engine at a time.
 [[nodiscard]] VOXTACT_API Result<AnswerTables> ask(cpu::HostEngine& engine, std::string_view question,
                                                    std::span<const Setting> settings, const cpu::Batch& batch);
 

@@ -471,7 +471,7 @@ typedef struct vxt_setting {
     const char* text;      ///< value of a choice: one of its names
     const double* numbers; ///< value of a list of numbers
     const int32_t* labels; ///< value of a list of labels
-    size_t count;          ///< length of the list; with 0, too, the pointer must not be null
+    size_t count;          ///< length of the list; an empty list needs a pointer, too
 } vxt_setting;
 
 /// A question about pairs: voxtact::NamedQuestion.

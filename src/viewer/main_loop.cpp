@@ -272,7 +272,7 @@ void MainLoop::load(std::function<Result<Given>(Progress&)> read, std::optional<
     LoadTask task;
     task.read = std::move(read);
     task.opened = opened;
-    task.mostSide = desc_->mostSide;
+    task.maxSide = desc_->maxSide;
     task.stage.light = desc_->light;
     task.stage.wake = [] { glfwPostEmptyEvent(); };
     if (!state.blank) {

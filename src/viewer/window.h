@@ -44,7 +44,7 @@ struct WindowDesc {
     std::function<void(const std::string& note)> tell;
     std::filesystem::path reportState;   ///< a file to write after each answer; empty: none
     std::optional<std::uint64_t> frames; ///< frames to show; empty: until it is closed
-    std::uint32_t mostSide = 0;          ///< voxels along a side of a volume; 0: what the device takes
+    std::uint32_t maxSide = 0;           ///< voxels along a side of a volume; 0: what the device takes
 
     /// Creates a drawing device with the display's extensions; called again after a loss.
     std::function<Result<std::unique_ptr<device::Session>>()> session;

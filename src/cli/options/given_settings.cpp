@@ -11,11 +11,9 @@ namespace voxtact::app {
 
 namespace {
 
-const Fact* factNamed(std::string_view question, std::string_view name) {
-    const auto* const found =
-        std::ranges::find_if(kFacts, [&](const Fact& fact) { return fact.question == question && fact.name == name; });
-    return found == kFacts.end() ? nullptr : found;
-}
+static_assert(std::ranges::none_of(kFacts, [](const Fact& fact) { // addSettings() has no option for it
+    return fact.kind == FactKind::Choice && !fact.option.empty();
+}));
 
 std::optional<std::string> parseLimits(const std::string& text, std::vector<double>& limits) {
     limits.clear();
@@ -44,7 +42,7 @@ double GivenSettings::number(std::string_view name) const {
     if (const auto given = numbers.find(name); given != numbers.end()) {
         return given->second;
     }
-    const Fact* const fact = factNamed(question, name);
+    const Fact* const fact = findFact(question, name);
     return fact == nullptr ? 0 : fact->standard.value_or(kInfinity);
 }
 
@@ -76,7 +74,7 @@ std::string optionOf(const Fact& fact) {
 }
 
 const Fact* labelFact(std::string_view question) {
-    const Fact* const fact = factNamed(question, "labels");
+    const Fact* const fact = findFact(question, "labels");
     return fact != nullptr && fact->kind == FactKind::Labels ? fact : nullptr;
 }
 
@@ -89,6 +87,7 @@ void addSettings(CLI::App& parser, GivenSettings& settings) {
         const std::string help(fact.text);
         switch (fact.kind) {
         case FactKind::Number:
+        case FactKind::Whole:
             addFact(parser, fact, [&settings, &fact](double value) { settings.numbers[fact.name] = value; });
             break;
         case FactKind::Flag:
@@ -104,9 +103,8 @@ void addSettings(CLI::App& parser, GivenSettings& settings) {
         case FactKind::Labels:
             parser.add_option(option, settings.labels, help)->delimiter(',')->type_name("LABEL,...");
             break;
-        case FactKind::Whole:
         case FactKind::Choice:
-            break; // no question has an option of that kind
+            break;
         }
     }
 }

@@ -125,8 +125,11 @@ std::vector<Command> addQuestions(CLI::App& program) {
         const auto add = question.name == "touch"    ? addTouch
                          : question.name == "count"  ? addCount
                          : question.name == "motion" ? addMotion
-                                                     : addMeasure;
-        commands.push_back(add(program, question));
+                         : question.measures         ? addMeasure
+                                                     : nullptr; // vxt_ask() answers it, the program does not
+        if (add != nullptr) {
+            commands.push_back(add(program, question));
+        }
     }
     return commands;
 }

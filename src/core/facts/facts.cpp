@@ -17,6 +17,12 @@ std::string withUnit(const std::string& text, const Fact& fact) {
 
 } // namespace
 
+const Fact* findFact(std::string_view question, std::string_view name) noexcept {
+    const auto* const found =
+        std::ranges::find_if(kFacts, [&](const Fact& fact) { return fact.question == question && fact.name == name; });
+    return found == kFacts.end() ? nullptr : found;
+}
+
 std::string rangeText(const Fact& fact) {
     if (fact.kind == FactKind::Flag || fact.kind == FactKind::Choice) {
         return std::string(fact.kind == FactKind::Flag ? "0 or 1" : fact.choices);

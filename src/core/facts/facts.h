@@ -170,7 +170,7 @@ inline constexpr std::array kFacts{
          .table = "bands",
          .withLabels = WithLabels::Never},
     fact::labels("overlap", "in"),
-    fact::maxSteps("overlap", 1U << 18U),
+    fact::maxSteps("overlap", Overlap().maxSteps),
     fact::choice("motion", "interpolation", "screw,slerp", "motion between two poses"),
     Fact{"motion", "resolution", "mm", 1e-6, kInfinity, kDefaultMotionResolution,
          "maximum motion from toi_lower to toi_upper, mm"},
@@ -201,6 +201,8 @@ consteval const Fact& factOf(std::string_view question, std::string_view name) {
     throw "no such fact";
 }
 
+/// Returns a fact by name; null if there is none.
+[[nodiscard]] const Fact* findFact(std::string_view question, std::string_view name) noexcept;
 /// Returns the range as text: "from 1e-06 mm on", "above 0 mm", "from 0 to 180 degrees".
 [[nodiscard]] std::string rangeText(const Fact& fact);
 /// Returns true if the value is in the range.

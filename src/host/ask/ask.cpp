@@ -28,12 +28,6 @@ std::string joined(std::span<const std::string_view> names) {
     return out;
 }
 
-const Fact* factNamed(std::string_view question, std::string_view name) {
-    const auto* const found =
-        std::ranges::find_if(kFacts, [&](const Fact& fact) { return fact.question == question && fact.name == name; });
-    return found == kFacts.end() ? nullptr : found;
-}
-
 template <class Number> double read(const std::byte* from) noexcept {
     Number number{};
     std::memcpy(&number, from, sizeof number);
@@ -111,7 +105,7 @@ template <class Value> const Value* SettingReader::find(std::string_view name) {
         }
         found = std::get_if<Value>(&setting.value);
         if (found == nullptr) {
-            const Fact* const fact = factNamed(question_, name);
+            const Fact* const fact = findFact(question_, name);
             refuseValue(name, "has a value of another kind; it takes " +
                                   (fact == nullptr ? std::string("another") : rangeText(*fact)));
         }
@@ -121,7 +115,7 @@ template <class Value> const Value* SettingReader::find(std::string_view name) {
 
 const double* SettingReader::number(std::string_view name) {
     const double* const given = find<double>(name);
-    const Fact* const fact = factNamed(question_, name);
+    const Fact* const fact = findFact(question_, name);
     if (given != nullptr && fact != nullptr) {
         const Result<void> checked = checkFact(*fact, *given);
         error_ = error_.empty() && !checked.ok() ? checked.error().text : error_;
@@ -186,7 +180,7 @@ SettingReader& SettingReader::operator()(std::string_view name, std::optional<st
 
 std::uint32_t SettingReader::choice(std::string_view name, std::uint32_t standard) {
     const auto* const given = find<std::string_view>(name);
-    const Fact* const fact = factNamed(question_, name);
+    const Fact* const fact = findFact(question_, name);
     if (given == nullptr || fact == nullptr) {
         return standard;
     }
@@ -222,11 +216,6 @@ std::span<const NamedQuestion> namedQuestions() noexcept {
         return out;
     }();
     return all;
-}
-
-const NamedQuestion* questionNamed(std::string_view name) noexcept {
-    const auto found = std::ranges::find(namedQuestions(), name, &NamedQuestion::name);
-    return found == namedQuestions().end() ? nullptr : &*found;
 }
 
 Result<AnswerTables> ask(cpu::HostEngine& engine, std::string_view question, std::span<const Setting> settings,

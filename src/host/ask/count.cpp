@@ -17,14 +17,14 @@ struct CountRow {
 constexpr std::array kColumns{
     VOXTACT_COLUMN(CountRow, "item", item, "", kItemText),
     VOXTACT_COLUMN(CountRow, "pose", pose, "", kPoseText),
-    VOXTACT_COLUMN(CountRow, "touch", touch, "", "whether a fragment passes", Printed::Plain, kVerdictNames),
+    VOXTACT_COLUMN(CountRow, "touch", touch, "", "whether a fragment passes", Printed::No, kVerdictNames),
     VOXTACT_COLUMN(CountRow, "exactness", exactness, "", "meaning of the count", Printed::No,
                    "exact,lower-bound,refused"),
-    VOXTACT_COLUMN(CountRow, "method", method, "", "counting method", Printed::Plain,
+    VOXTACT_COLUMN(CountRow, "method", method, "", "counting method", Printed::No,
                    "query,query-any,atomic,subgroup,compute,cpu"),
-    VOXTACT_COLUMN(CountRow, "projection", projection, "", "projection of the fragments", Printed::Plain,
+    VOXTACT_COLUMN(CountRow, "projection", projection, "", "projection of the fragments", Printed::No,
                    "view,two-view,dominant-axis,certified"),
-    VOXTACT_COLUMN(CountRow, "count", count, "", "passing fragments", Printed::Plain),
+    VOXTACT_COLUMN(CountRow, "count", count, "", "passing fragments"),
 };
 
 constexpr std::array kTriangleColumns{

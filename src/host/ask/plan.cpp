@@ -19,11 +19,11 @@ struct PathRow {
 };
 constexpr std::array kPathColumns{
     VOXTACT_COLUMN(PathRow, "entry", entry, "", "number of its direction"),
-    VOXTACT_COLUMN(PathRow, "safe", safe, "", "whether the whole path keeps the margin", Printed::Plain,
+    VOXTACT_COLUMN(PathRow, "safe", safe, "", "whether the whole path keeps the margin", Printed::No,
                    "unsafe,safe,undecided"),
     VOXTACT_COLUMN(PathRow, "lower", clearance.lower, "mm",
-                   "lower bound of the distance from the obstacles; 0: it touches", Printed::Down),
-    VOXTACT_COLUMN(PathRow, "upper", clearance.upper, "mm", "upper bound; infinite beyond the maximum", Printed::Up),
+                   "lower bound of the distance from the obstacles; 0: it touches"),
+    VOXTACT_COLUMN(PathRow, "upper", clearance.upper, "mm", "upper bound; infinite beyond the maximum"),
     VOXTACT_COLUMN(PathRow, "end", end, "", kEndText, Printed::No, kStopReasonNames),
     VOXTACT_COLUMN(PathRow, "length", length, "mm", "from the entry to the target"),
     VOXTACT_COLUMN(PathRow, "angle", angle, "degrees",

@@ -14,7 +14,7 @@ struct TouchRow {
 constexpr std::array kColumns{
     VOXTACT_COLUMN(TouchRow, "item", item, "", kItemText),
     VOXTACT_COLUMN(TouchRow, "pose", pose, "", kPoseText),
-    VOXTACT_COLUMN(TouchRow, "touch", touch, "", "whether it touches, certified", Printed::Plain, kVerdictNames),
+    VOXTACT_COLUMN(TouchRow, "touch", touch, "", "whether it touches, certified", Printed::No, kVerdictNames),
     VOXTACT_COLUMN(TouchRow, "witness", witness, "", "1: there is a witness point"),
     VOXTACT_COLUMN(TouchRow, "triangle", triangle, "",
                    "triangle of the witness point: number in the mesh; 4294967295: the point is inside the mesh"),

@@ -36,19 +36,19 @@ std::uint32_t largestSide(const Grid& grid) {
     return *std::ranges::max_element(grid.size);
 }
 
-Result<Volume> upload(const device::Session& session, const State& state, std::uint32_t mostSide) {
-    if (mostSide != 0 && largestSide(state.volume.grid) > mostSide) {
+Result<Volume> upload(const device::Session& session, const State& state, std::uint32_t maxSide) {
+    if (maxSide != 0 && largestSide(state.volume.grid) > maxSide) {
         return Error{ErrorCode::LimitExceeded, 0,
                      "the volume has " + sidesText(state.volume.grid) + " voxels; --volume-side allows at most " +
-                         std::to_string(mostSide) + " along a side"};
+                         std::to_string(maxSide) + " along a side"};
     }
     return Stage::upload(session, state.volume);
 }
 
 /// Returns the minimum factor for a limit of the sides; at least twice the current one.
-std::uint32_t factorFor(const State& state, std::uint32_t mostSide) {
+std::uint32_t factorFor(const State& state, std::uint32_t maxSide) {
     std::uint32_t factor = 2 * state.coarserBy;
-    while (mostSide != 0 && largestSide(state.volume.grid) * state.coarserBy > mostSide * factor) {
+    while (maxSide != 0 && largestSide(state.volume.grid) * state.coarserBy > maxSide * factor) {
         factor += state.coarserBy;
     }
     return factor;
@@ -171,10 +171,10 @@ Loader::Outcome Loader::done(const Job& job) const {
         loaded.state = std::make_unique<State>(std::move(*given));
         State& state = *loaded.state;
         VOXTACT_TRY(progress.begin("uploading the volume"));
-        Result<Volume> volume = upload(*session_, state, job.task.mostSide);
+        Result<Volume> volume = upload(*session_, state, job.task.maxSide);
         if (!volume.ok()) {
             if (isTooLarge(volume.error()) && largestSide(state.volume.grid) > 2) {
-                failure.coarser = factorFor(state, job.task.mostSide);
+                failure.coarser = factorFor(state, job.task.maxSide);
                 failure.tooLarge = std::make_unique<Given>(state.giveBack());
             }
             return volume.error();

@@ -9,7 +9,7 @@ namespace voxtact::view {
 struct LoadTask {
     std::function<Result<Given>(Progress&)> read; ///< called on the loader's thread
     std::optional<FileKind> opened;               ///< file opened in addition; empty: replaces everything
-    std::uint32_t mostSide = 0;                   ///< voxels along a side that are shown; 0: what the device takes
+    std::uint32_t maxSide = 0;                    ///< voxels along a side that are shown; 0: what the device takes
     StageDesc stage;
 };
 

@@ -39,7 +39,7 @@ view::WindowDesc windowDesc(const ViewerOptions& options) {
     desc.tell = printNoteOnce;
     desc.reportState = options.reportState;
     desc.frames = options.frames;
-    desc.mostSide = options.mostSide;
+    desc.maxSide = options.maxSide;
     desc.method = [](const device::Session& session) {
         return view::MethodChoice{isCertifyingGpu(session) ? CountingMethod::Compute : CountingMethod::Cpu,
                                   Projection::Certified};

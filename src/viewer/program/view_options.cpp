@@ -172,7 +172,7 @@ void addViewerOptions(CLI::App& parser, ViewerOptions& options) {
         parser, "--frames", [&options](std::uint32_t frames) { options.frames = frames; }, {.least = 1},
         "exit after N frames; 0: never", 0);
     addWholeNumber(
-        parser, "--volume-side", [&options](std::uint32_t side) { options.mostSide = side; }, {.least = 2},
+        parser, "--volume-side", [&options](std::uint32_t side) { options.maxSide = side; }, {.least = 2},
         "maximum voxels along a side; larger volumes: offer a coarser copy; 0: the device's limit", 0);
     addSize(
         parser, [&options](const VkExtent2D& size) { options.size = size; }, "window size, points",

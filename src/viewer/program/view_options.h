@@ -23,7 +23,7 @@ struct ViewerOptions {
     std::filesystem::path session;
     std::filesystem::path reportState;
     std::optional<std::uint32_t> frames;
-    std::uint32_t mostSide = 0; ///< voxels along a side of the volume; 0: what the device takes
+    std::uint32_t maxSide = 0; ///< voxels along a side of the volume; 0: what the device takes
     VkExtent2D size{1280, 800};
 };
 

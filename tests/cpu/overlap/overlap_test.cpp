@@ -160,7 +160,7 @@ TEST(Overlap, TakesWhateverSurfaceIsClosed) {
     const MeshData inner = transformed(solidBall(3, 2), translation({9.1, 9, 9}));
     const MeshData block = solidBox({2, 2, 2}, {18, 18, 6});
     const MeshData prism =
-        transformed(solidPrism(40, 2, 4), translation({13, 8, 6})); // cuts a triangle into 40 corners
+        transformed(solidPrism(40, 2, 4), translation({13, 8, 6})); // cuts a piece of 40 corners out of a triangle
     struct Case {
         const char* name;
         MeshData mesh;
